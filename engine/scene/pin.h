@@ -1,0 +1,49 @@
+#pragma once
+// Which vertices of a garment are held, and how.
+
+#include "engine/types.h"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace toile {
+
+struct PinVertices {
+  std::vector<int> vertices;  ///< of the garment's mesh as the run writes it
+};
+struct PinEdge {
+  int panel, edge;  ///< a pattern's panel edge
+};
+struct PinLabel {
+  std::string label;  ///< edge label of the pattern, e.g. lower_interface
+};
+struct PinBox {
+  Vec3 min, max;  ///< [m], selects by start position
+};
+struct PinNearest {
+  Vec3 point;  ///< [m], the one vertex nearest to it at the start
+};
+
+/// Rigid motion at a time: rotate about `pivot` by the rotation vector, then translate. Linear between key frames,
+/// constant before the first and after the last.
+struct PinKeyFrame {
+  double time = 0;                       ///< [s]
+  Vec3 translation = Vec3::Zero();       ///< [m]
+  Vec3 rotation_vector = Vec3::Zero();   ///< [rad]
+};
+
+struct PinFixed {};
+struct PinMoved {
+  Vec3 pivot = Vec3::Zero();
+  std::vector<PinKeyFrame> key_frames;  ///< times rising
+};
+/// Held to the body's surface point that is nearest after assembly (a waistband, a strapless top).
+struct PinAttached {};
+
+struct Pin {
+  std::variant<PinVertices, PinEdge, PinLabel, PinBox, PinNearest> select;
+  std::variant<PinFixed, PinMoved, PinAttached> hold;
+};
+
+}  // namespace toile

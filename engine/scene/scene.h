@@ -1,0 +1,45 @@
+#pragma once
+// What is to be draped, as plain structs in SI units. Read from JSON by schemas/, checked by scene/check.h.
+
+#include "engine/scene/body.h"
+#include "engine/scene/fabric.h"
+#include "engine/scene/pattern.h"
+#include "engine/scene/pin.h"
+#include "engine/scene/solver_options.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace toile {
+
+/// A garment given as a mesh: UV is the flat pattern; stitches in the mesh, or pairs of vertices that are one.
+struct GarmentMesh {
+  TriangleMesh mesh;
+  double uv_unit = 1.0;  ///< metres per UV unit
+  std::vector<std::pair<int, int>> seams;
+};
+
+struct Garment {
+  std::string name;
+  std::variant<Pattern, GarmentMesh> shape;
+  Fabric fabric;
+  std::map<std::string, Fabric> panel_fabrics;  ///< by panel (group) name, instead of `fabric`
+  double edge_length = 0.015;                   ///< target [m]; a mesh garment keeps its own
+  std::vector<Pin> pins;
+};
+
+/// The rung on the ladder of speed against accuracy. `preview` stops after the position-based solver.
+enum class Fidelity { preview, standard, reference };
+
+/// Garments in layer order, the innermost first.
+struct Scene {
+  std::vector<Garment> garments;
+  std::optional<Body> body;
+  Fidelity fidelity = Fidelity::standard;
+  SolverOptions solver;
+};
+
+}  // namespace toile
