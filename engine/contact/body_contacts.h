@@ -1,0 +1,22 @@
+#pragma once
+// Contacts of the cloth with the body's distance field.
+
+#include "engine/contact/collision_mesh.h"
+#include "engine/contact/contact.h"
+#include "engine/geometry/body_field.h"
+
+#include <vector>
+
+namespace toile {
+
+struct BodyContactOptions {
+  double offset = 3e-3;    ///< vertices are repelled from the surface up to here [m]
+  double friction = 0.3;   ///< Coulomb coefficient
+};
+
+/// Vertices nearer to the body than `offset`; and midpoints of edges nearer than half of it, so that the chord of a
+/// coarse triangle does not cut into a finger. gap is the distance field, linear about x. Parallel, in a fixed order.
+std::vector<Contact> body_contacts(const CollisionMesh& mesh, const BodyField& body, const Positions& x,
+                                   const BodyContactOptions& options);
+
+}  // namespace toile

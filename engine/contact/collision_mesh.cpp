@@ -1,0 +1,48 @@
+#include "engine/contact/collision_mesh.h"
+
+#include "engine/mesh/sewing.h"
+
+#include <algorithm>
+#include <set>
+
+namespace toile {
+namespace {
+
+double smallest_altitude(const std::array<Vec2, 3>& flat) {
+  const Vec2 a = flat[1] - flat[0], b = flat[2] - flat[0], c = flat[2] - flat[1];
+  const double longest = std::max({a.norm(), b.norm(), c.norm()});
+  return longest > 0 ? std::abs(a.x() * b.y() - a.y() * b.x()) / longest : 0;
+}
+
+}  // namespace
+
+double default_contact_distance(double thickness, double edge_length) {
+  return std::max(thickness, std::min(0.18 * edge_length, 3e-3));
+}
+
+CollisionMesh make_collision_mesh(const Cloth& cloth, double contact_distance) {
+  CollisionMesh mesh;
+  mesh.triangles = cloth.triangles;
+  mesh.identity = seam_representatives(cloth);
+  const std::size_t n = cloth.x.size();
+  mesh.distance.assign(n, 1.0);
+  mesh.friction.assign(n, 0.0);
+  std::set<std::array<int, 2>> edges;
+  for (std::size_t t = 0; t < cloth.triangles.size(); ++t) {
+    const ClothPanel& panel = cloth.panels[cloth.triangle_panel[t]];
+    const Fabric& fabric = cloth.fabrics[panel.fabric];
+    const double wanted =
+        contact_distance > 0 ? contact_distance : default_contact_distance(fabric.thickness, panel.edge_length);
+    const double distance = std::min(wanted, 0.3 * smallest_altitude(cloth.flat[t]));
+    for (int k = 0; k < 3; ++k) {
+      const int v = cloth.triangles[t][k], w = cloth.triangles[t][(k + 1) % 3];
+      mesh.distance[v] = std::min(mesh.distance[v], distance);
+      mesh.friction[v] = std::max(mesh.friction[v], fabric.friction_cloth);
+      edges.insert({std::min(v, w), std::max(v, w)});
+    }
+  }
+  mesh.edges.assign(edges.begin(), edges.end());
+  return mesh;
+}
+
+}  // namespace toile

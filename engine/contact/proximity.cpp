@@ -1,0 +1,196 @@
+#include "engine/contact/proximity.h"
+
+#include "engine/geometry/distance.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_set>
+
+namespace toile {
+namespace {
+
+constexpr int kBlock = 512;  // features per task; blocks are joined in order, so the lists don't depend on threads
+constexpr double kBoundFraction = 0.45;    // of the nearest distance; below ½ with room for rounding
+constexpr double kRebuildFraction = 0.25;  // of the list radius, moved by any vertex
+constexpr double kFeatureTolerance = 1e-9;  // a weight below this means that the closest point lies on a sub-feature
+
+Box box_of(const Positions& x, const int* nodes, int count, double margin) {
+  Box box{x[nodes[0]], x[nodes[0]]};
+  for (int k = 1; k < count; ++k) {
+    box.lower = box.lower.cwiseMin(x[nodes[k]]);
+    box.upper = box.upper.cwiseMax(x[nodes[k]]);
+  }
+  box.lower.array() -= margin;
+  box.upper.array() += margin;
+  return box;
+}
+
+std::uint64_t mix(std::uint64_t h) {  // SplitMix64's finaliser
+  h ^= h >> 30;
+  h *= 0xbf58476d1ce4e5b9ULL;
+  h ^= h >> 27;
+  h *= 0x94d049bb133111ebULL;
+  return h ^ (h >> 31);
+}
+
+std::uint64_t key_of(const Contact& contact) {
+  std::array<int, 4> nodes{};
+  int used = 0;
+  std::uint64_t side = 0;
+  for (int k = 0; k < contact.count; ++k) {
+    if (std::abs(contact.weights[k]) <= kFeatureTolerance) continue;
+    nodes[used++] = contact.nodes[k];
+    if (contact.weights[k] > 0) side += mix(static_cast<std::uint64_t>(contact.nodes[k]) + 1);
+  }
+  std::sort(nodes.begin(), nodes.begin() + used);
+  std::uint64_t h = mix(side + 0x9e3779b97f4a7c15ULL);
+  for (int k = 0; k < used; ++k) h = mix(h ^ (static_cast<std::uint64_t>(nodes[k]) + 0x9e3779b97f4a7c15ULL * (k + 1)));
+  return h;
+}
+
+struct Measured {
+  double distance = 0;
+  Contact contact;
+};
+
+}  // namespace
+
+Proximity::Proximity(CollisionMesh mesh, double list_radius) : mesh_(std::move(mesh)) {
+  double largest = 0;
+  for (double d : mesh_.distance) largest = std::max(largest, d < 1.0 ? d : 0.0);
+  list_radius_ = std::max(list_radius, 2.5 * largest);
+}
+
+bool Proximity::share_identity(const int* a, int na, const int* b, int nb) const {
+  for (int i = 0; i < na; ++i)
+    for (int j = 0; j < nb; ++j)
+      if (mesh_.identity[a[i]] == mesh_.identity[b[j]]) return true;
+  return false;
+}
+
+void Proximity::rebuild_list(const Positions& x) {
+  const int triangles = static_cast<int>(mesh_.triangles.size()), edges = static_cast<int>(mesh_.edges.size());
+  std::vector<Box> triangle_boxes(triangles), edge_boxes(edges);
+  tbb::parallel_for(0, triangles, [&](int t) { triangle_boxes[t] = box_of(x, mesh_.triangles[t].data(), 3, 0); });
+  tbb::parallel_for(0, edges, [&](int e) { edge_boxes[e] = box_of(x, mesh_.edges[e].data(), 2, 0); });
+  if (listed_at_.empty()) {
+    triangle_bvh_ = Bvh(triangle_boxes);
+    edge_bvh_ = Bvh(edge_boxes);
+  } else {
+    triangle_bvh_.refit(triangle_boxes);
+    edge_bvh_.refit(edge_boxes);
+  }
+  listed_at_ = x;
+
+  const auto collect = [&](int count, auto&& pairs_of) {
+    const int blocks = (count + kBlock - 1) / kBlock;
+    std::vector<std::vector<Pair>> found(blocks);
+    tbb::parallel_for(0, blocks, [&](int block) {
+      const int end = std::min(count, (block + 1) * kBlock);
+      for (int i = block * kBlock; i < end; ++i) pairs_of(i, found[block]);
+    });
+    std::vector<Pair> all;
+    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    return all;
+  };
+  const double radius2 = list_radius_ * list_radius_;
+  vertex_triangle_ = collect(static_cast<int>(x.size()), [&](int v, std::vector<Pair>& out) {
+    triangle_bvh_.query(box_of(x, &v, 1, list_radius_), [&](int t) {
+      const Triangle& tri = mesh_.triangles[t];
+      if (share_identity(&v, 1, tri.data(), 3)) return;
+      if (point_triangle(x[v], x[tri[0]], x[tri[1]], x[tri[2]]).squared_distance < radius2) out.push_back({v, t});
+    });
+  });
+  edge_edge_ = collect(edges, [&](int e, std::vector<Pair>& out) {
+    const auto& first = mesh_.edges[e];
+    edge_bvh_.query(box_of(x, first.data(), 2, list_radius_), [&](int f) {
+      if (f <= e) return;
+      const auto& second = mesh_.edges[f];
+      if (share_identity(first.data(), 2, second.data(), 2)) return;
+      if (segment_segment(x[first[0]], x[first[1]], x[second[0]], x[second[1]]).squared_distance < radius2)
+        out.push_back({e, f});
+    });
+  });
+}
+
+void Proximity::update(const Positions& x) {
+  double moved2 = std::numeric_limits<double>::infinity();
+  if (listed_at_.size() == x.size()) {
+    moved2 = 0;
+    for (std::size_t v = 0; v < x.size(); ++v) moved2 = std::max(moved2, (x[v] - listed_at_[v]).squaredNorm());
+  }
+  if (!(moved2 <= std::pow(kRebuildFraction * list_radius_, 2))) {
+    rebuild_list(x);
+    moved2 = 0;
+  }
+  // Whatever is not listed was farther than the radius when the list was made.
+  const double unlisted = list_radius_ - 2 * std::sqrt(moved2);
+
+  const int vt = static_cast<int>(vertex_triangle_.size()), total = vt + static_cast<int>(edge_edge_.size());
+  std::vector<Measured> measured(total);
+  tbb::parallel_for(tbb::blocked_range<int>(0, total, kBlock), [&](const tbb::blocked_range<int>& range) {
+    for (int i = range.begin(); i < range.end(); ++i) {
+      Contact& c = measured[i].contact;
+      c.count = 4;
+      if (i < vt) {
+        const Pair& pair = vertex_triangle_[i];
+        const Triangle& tri = mesh_.triangles[pair.b];
+        const auto closest = point_triangle(x[pair.a], x[tri[0]], x[tri[1]], x[tri[2]]);
+        c.nodes = {pair.a, tri[0], tri[1], tri[2]};
+        c.weights = {1, -closest.weights[0], -closest.weights[1], -closest.weights[2]};
+      } else {
+        const Pair& pair = edge_edge_[i - vt];
+        const auto &first = mesh_.edges[pair.a], &second = mesh_.edges[pair.b];
+        const auto closest = segment_segment(x[first[0]], x[first[1]], x[second[0]], x[second[1]]);
+        c.nodes = {first[0], first[1], second[0], second[1]};
+        c.weights = {1 - closest.s, closest.s, closest.t - 1, -closest.t};
+      }
+      Vec3 p = Vec3::Zero();
+      for (int k = 0; k < 4; ++k) p += c.weights[k] * x[c.nodes[k]];
+      measured[i].distance = p.norm();
+      if (measured[i].distance > 0) c.normal = p / measured[i].distance;
+      c.anchor = p;
+      c.distance = mesh_.distance[c.nodes[0]];
+      for (int k = 0; k < 4; ++k) {
+        c.distance = std::min(c.distance, mesh_.distance[c.nodes[k]]);
+        c.friction += 0.25 * mesh_.friction[c.nodes[k]];
+      }
+    }
+  });
+
+  bounds_.assign(x.size(), unlisted);
+  smallest_distance_ = unlisted;
+  contacts_.clear();
+  std::unordered_set<std::uint64_t> seen;
+  for (int i = 0; i < total; ++i) {
+    Contact& c = measured[i].contact;
+    const double d = measured[i].distance;
+    for (int k = 0; k < 4; ++k) bounds_[c.nodes[k]] = std::min(bounds_[c.nodes[k]], d);
+    smallest_distance_ = std::min(smallest_distance_, d);
+    if (d >= c.distance || d <= 0) continue;
+    // An edge pair whose nearest points include an end is a vertex–triangle pair too.
+    const bool interior = i < vt || (c.weights[0] > kFeatureTolerance && c.weights[1] > kFeatureTolerance &&
+                                     -c.weights[2] > kFeatureTolerance && -c.weights[3] > kFeatureTolerance);
+    if (!interior) continue;
+    c.key = key_of(c);
+    if (seen.insert(c.key).second) contacts_.push_back(c);
+  }
+  for (double& bound : bounds_) bound *= kBoundFraction;
+}
+
+long limit_displacements(const Positions& from, const std::vector<double>& bounds, Positions& x) {
+  long limited = 0;
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    const Vec3 move = x[v] - from[v];
+    const double length = move.norm();
+    if (length <= bounds[v]) continue;
+    x[v] = from[v] + move * (bounds[v] / length);
+    ++limited;
+  }
+  return limited;
+}
+
+}  // namespace toile

@@ -1,0 +1,19 @@
+#pragma once
+// Puts flat panels where sewing can start: outside the body and not through one another.
+
+#include "engine/mesh/cloth.h"
+#include "engine/solve/assemble.h"
+
+#include <vector>
+
+namespace toile {
+
+/// The field each vertex minds while panels are sewn: that without overhangs for panels labelled "leg".
+std::vector<const BodyField*> field_of_vertices(const Cloth& apart, const BodyFields& fields);
+
+/// Panels in layer order: one with a point nearer to the body than `clearance`, or with an edge through a triangle of a
+/// panel before it, moves along its outward normal until it is free, at most `reach` [m]. Panels that are free stay.
+/// Throws InputError (`panel_inside_body`) naming a panel that finds no free place.
+void clear_panels(Cloth& apart, const std::vector<const BodyField*>& field, double clearance, double reach);
+
+}  // namespace toile

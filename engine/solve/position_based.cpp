@@ -1,0 +1,128 @@
+#include "engine/solve/position_based.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace toile {
+
+PositionBased::PositionBased(const Cloth& cloth, CollisionMesh mesh, double list_radius,
+                             std::vector<const BodyField*> body_of_vertex)
+    : mobility(cloth.x.size(), 1.0),
+      keep_height(cloth.x.size(), 0),
+      proximity_(std::move(mesh), list_radius),
+      body_(std::move(body_of_vertex)),
+      body_samples_(cloth.x.size()) {
+  struct Side {
+    int opposite;
+    Vec2 from, to, tip;  // flat, with from belonging to the smaller vertex
+  };
+  std::map<std::array<int, 2>, std::vector<Side>> sides;
+  for (std::size_t t = 0; t < cloth.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      int i = k, j = (k + 1) % 3;
+      if (cloth.triangles[t][i] > cloth.triangles[t][j]) std::swap(i, j);
+      const int o = (k + 2) % 3;
+      sides[{cloth.triangles[t][i], cloth.triangles[t][j]}].push_back(
+          {cloth.triangles[t][o], cloth.flat[t][i], cloth.flat[t][j], cloth.flat[t][o]});
+    }
+  for (const auto& [edge, around] : sides) {
+    double rest = 0;
+    for (const Side& side : around) rest += (side.to - side.from).norm() / static_cast<double>(around.size());
+    stretch_.push_back({edge[0], edge[1], rest});
+    if (around.size() != 2) continue;
+    // The two tips as far apart as they are when both triangles lie flat on either side of the edge.
+    const auto local = [](const Side& side) {
+      const Vec2 axis = (side.to - side.from).normalized(), arm = side.tip - side.from;
+      return Vec2(axis.dot(arm), std::abs(axis.x() * arm.y() - axis.y() * arm.x()));
+    };
+    const Vec2 p = local(around[0]), q = local(around[1]);
+    bends_.push_back({around[0].opposite, around[1].opposite, std::hypot(p.x() - q.x(), p.y() + q.y())});
+  }
+}
+
+void PositionBased::project(Positions& x, const Length& c, double share) const {
+  const double wa = mobility[c.a], wb = mobility[c.b];
+  if (wa + wb == 0) return;
+  const Vec3 d = x[c.b] - x[c.a];
+  const double length = d.norm();
+  if (length < 1e-12) return;
+  const Vec3 correction = d * (share * (length - c.rest) / (length * (wa + wb)));
+  x[c.a] += wa * correction;
+  x[c.b] -= wb * correction;
+}
+
+const std::vector<double>& PositionBased::displacement_bounds(const Positions& x) {
+  proximity_.update(x);
+  return proximity_.displacement_bounds();
+}
+
+double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
+  const int n = static_cast<int>(x.size());
+  const Positions start = x;
+  proximity_.update(start);
+  contacts_ = proximity_.contacts();
+  if (carried_.size() != x.size()) carried_.assign(n, Vec3::Zero());
+
+  const double limit = options.max_move;
+  for (int v = 0; v < n; ++v) {
+    if (mobility[v] == 0) continue;
+    Vec3 move = options.carry * carried_[v] + options.fall;
+    const double length = move.norm();
+    if (length > limit) move *= limit / length;
+    x[v] += move;
+  }
+  tbb::parallel_for(tbb::blocked_range<int>(0, n, 256), [&](const tbb::blocked_range<int>& range) {
+    for (int v = range.begin(); v < range.end(); ++v)
+      if (body_[v]) body_samples_[v] = body_[v]->sample(start[v]);
+  });
+  std::vector<double> allowed(pulls.size());
+  for (std::size_t i = 0; i < pulls.size(); ++i)
+    allowed[i] = std::max(0.0, (start[pulls[i].b] - start[pulls[i].a]).norm() - options.closing);
+
+  for (int iteration = 0; iteration < options.iterations; ++iteration) {
+    for (const Length& c : bends_) project(x, c, options.bending);
+    for (const Length& c : stretch_) project(x, c, 1.0);
+    for (std::size_t i = 0; i < pulls.size(); ++i)
+      if ((x[pulls[i].b] - x[pulls[i].a]).norm() > allowed[i]) project(x, {pulls[i].a, pulls[i].b, allowed[i]}, 1.0);
+    for (const Contact& c : contacts_) {
+      Vec3 p = Vec3::Zero();
+      double weight = 0;
+      for (int k = 0; k < c.count; ++k) {
+        p += c.weights[k] * x[c.nodes[k]];
+        weight += c.weights[k] * c.weights[k] * mobility[c.nodes[k]];
+      }
+      const double lack = c.distance - (c.normal.dot(p) - c.offset);
+      if (lack <= 0 || weight == 0) continue;
+      for (int k = 0; k < c.count; ++k)
+        x[c.nodes[k]] += c.normal * (mobility[c.nodes[k]] * c.weights[k] * lack / weight);
+    }
+    for (int v = 0; v < n; ++v) {
+      if (!body_[v] || mobility[v] == 0) continue;
+      const BodyField::Sample& s = body_samples_[v];
+      const double lack = options.body_offset - (s.distance + s.normal.dot(x[v] - start[v]));
+      if (lack > 0) x[v] += s.normal * std::min(lack, limit);
+    }
+    for (int v = 0; v < n; ++v)
+      if (keep_height[v]) x[v].y() = start[v].y();
+  }
+
+  largest_move_ = 0;
+  for (int v = 0; v < n; ++v) {
+    Vec3 move = x[v] - start[v];
+    const double length = move.norm();
+    if (length > 2 * limit) x[v] = start[v] + move * (2 * limit / length);
+  }
+  limit_displacements(start, proximity_.displacement_bounds(), x);
+  for (int v = 0; v < n; ++v) {
+    carried_[v] = x[v] - start[v];
+    largest_move_ = std::max(largest_move_, carried_[v].norm());
+  }
+  double gap = 0;
+  for (const SeamPull& pull : pulls) gap = std::max(gap, (x[pull.b] - x[pull.a]).norm());
+  return gap;
+}
+
+}  // namespace toile
