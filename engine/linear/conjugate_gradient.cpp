@@ -1,0 +1,90 @@
+#include "engine/linear/conjugate_gradient.h"
+
+#include "engine/parallel/reduce.h"
+
+#include <Eigen/LU>
+
+#include <cmath>
+
+namespace toile {
+
+namespace {
+
+constexpr int kRowsPerTask = 1024;
+constexpr int kContactsPerTask = 2048;
+
+Eigen::Map<Eigen::Vector3f> vec(Float4& f) { return Eigen::Map<Eigen::Vector3f>(&f.x); }
+double dot(const Float4& a, const Float4& b) {
+  return double(a.x) * double(b.x) + double(a.y) * double(b.y) + double(a.z) * double(b.z);
+}
+
+}  // namespace
+
+void BlockJacobi::set(int row, const Eigen::Matrix3f& diagonal_block) {
+  const Mat3 symmetric = 0.5 * (diagonal_block + diagonal_block.transpose()).cast<double>();
+  inverse_[row] = symmetric.inverse().cast<float>();
+}
+
+CgOutcome ConjugateGradient::solve(const BlockMatrix& fixed, ContactMatrix& dynamic, const BlockJacobi& preconditioner,
+                                   const NodeVector& b, double tolerance, int most_iterations, NodeVector& x) {
+  const int rows = fixed.rows();
+  x.assign(rows, Float4{});
+  residual_.resize(rows);
+  preconditioned_.resize(rows);
+  product_.resize(rows);
+  direction_.assign(rows, Float4{});
+
+  CgOutcome outcome;
+  const auto start = deterministic_sums<2>(rows, kRowsPerTask, [&](int begin, int end) {
+    std::array<double, 2> sums{};
+    for (int i = begin; i < end; ++i) {
+      residual_[i] = preconditioner.held(i) ? Float4{} : b[i];
+      vec(preconditioned_[i]) = preconditioner.inverse(i) * vec(residual_[i]);
+      sums[0] += dot(residual_[i], residual_[i]);
+      sums[1] += dot(residual_[i], preconditioned_[i]);
+    }
+    return sums;
+  });
+  const double norm2 = start[0];
+  double rz = start[1], beta = 0;
+  if (!(norm2 > 0) || !std::isfinite(norm2)) return outcome;
+  outcome.relative_residual = 1;
+
+  while (outcome.iterations < most_iterations) {
+    parallel_ranges(rows, 2 * kRowsPerTask, [&](int begin, int end) {
+      const float factor = static_cast<float>(beta);
+      for (int i = begin; i < end; ++i) vec(direction_[i]) = vec(preconditioned_[i]) + factor * vec(direction_[i]);
+    });
+    parallel_ranges(dynamic.size(), kContactsPerTask,
+                    [&](int begin, int end) { dynamic.gather(begin, end, direction_); });
+    const double curvature = deterministic_sum(rows, kRowsPerTask, [&](int begin, int end) {
+      fixed.multiply_rows(begin, end, direction_, product_);
+      if (dynamic.size() > 0) dynamic.multiply_add_rows(begin, end, product_);
+      double sum = 0;
+      for (int i = begin; i < end; ++i) sum += dot(direction_[i], product_[i]);
+      return sum;
+    });
+    if (!(curvature > 0)) break;
+    const float alpha = static_cast<float>(rz / curvature);
+    const auto sums = deterministic_sums<2>(rows, kRowsPerTask, [&](int begin, int end) {
+      std::array<double, 2> partial{};
+      for (int i = begin; i < end; ++i) {
+        if (preconditioner.held(i)) continue;
+        vec(x[i]) += alpha * vec(direction_[i]);
+        vec(residual_[i]) -= alpha * vec(product_[i]);
+        vec(preconditioned_[i]) = preconditioner.inverse(i) * vec(residual_[i]);
+        partial[0] += dot(residual_[i], residual_[i]);
+        partial[1] += dot(residual_[i], preconditioned_[i]);
+      }
+      return partial;
+    });
+    ++outcome.iterations;
+    outcome.relative_residual = std::sqrt(sums[0] / norm2);
+    if (outcome.relative_residual < tolerance) break;
+    beta = sums[1] / rz;
+    rz = sums[1];
+  }
+  return outcome;
+}
+
+}  // namespace toile

@@ -1,0 +1,259 @@
+#include "engine/solve/backward_euler.h"
+
+#include "engine/linear/conjugate_gradient.h"
+#include "engine/parallel/reduce.h"
+#include "engine/solve/contact_system.h"
+#include "engine/solve/static_system.h"
+#include "engine/terms/air_drag.h"
+#include "engine/terms/contact.h"
+#include "engine/terms/gravity.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace toile {
+
+namespace {
+
+constexpr int kNodesPerTask = 1024;
+
+/// A step whose residual can't be lowered counts as solved below this fraction of the step's weight (root of the sum of
+/// squares over nodes): a hundredth of it moves a free node by g h²/100.
+constexpr double kRestFraction = 1e-2;
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total), start_(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() { total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& total_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+Positions permuted(const Positions& values, const std::vector<int>& from) {
+  Positions out(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) out[i] = values[from[i]];
+  return out;
+}
+
+/// What stays fixed while a step is solved.
+struct StepProblem {
+  const Positions* v0;
+  const std::vector<char>* held;
+  double h, fabric_factor;
+};
+
+}  // namespace
+
+struct BackwardEuler::Implementation {
+  Implementation(const Cloth& cloth, const SolverOptions& solver_options)
+      : options(solver_options),
+        system(cloth),
+        matrix(system.make_matrix()),
+        preconditioner(system.nodes()),
+        mass_in_cloth_order(system.nodes()) {
+    double squares = 0;
+    for (int i = 0; i < system.nodes(); ++i) {
+      mass_in_cloth_order[system.order()[i]] = system.mass()[i];
+      squares += system.mass()[i] * system.mass()[i];
+    }
+    weight_norm = kGravity * std::sqrt(squares);
+  }
+
+  /// Weight and air drag, which need no stencil.
+  Vec3 nodal_force(int node, const Vec3& v) const {
+    const double m = system.mass()[node];
+    Vec3 f = -air_drag_dissipation_gradient(options.air_drag, m, v);
+    if (options.gravity) f -= gravity_gradient(m);
+    return f;
+  }
+
+  /// b = M (v₀ − v) + h F(x, v) on free nodes, 0 on held ones; returns ‖b‖ (computeRhs). `force` holds the terms'
+  /// forces.
+  double finish_residual(const StepProblem& p, const Positions& v) {
+    b.resize(v.size());
+    return std::sqrt(deterministic_sum(system.nodes(), kNodesPerTask, [&](int begin, int end) {
+      double sum = 0;
+      for (int i = begin; i < end; ++i) {
+        b[i] = (*p.held)[i] ? Vec3::Zero()
+                            : Vec3(system.mass()[i] * ((*p.v0)[i] - v[i]) + p.h * (force[i] + nodal_force(i, v[i])));
+        sum += b[i].squaredNorm();
+      }
+      return sum;
+    }));
+  }
+
+  double residual(const StepProblem& p, const Positions& x, const Positions& v) {
+    system.forces(x, v, p.fabric_factor, force);
+    contacts.add_forces(x, options.contact_stiffness, force);
+    return finish_residual(p, v);
+  }
+
+  /// computeRhs and computeLhs at once: both need the same strains.
+  double residual_and_matrix(const StepProblem& p, const Positions& x, const Positions& v, StepTimes& times) {
+    {
+      Stopwatch watch(times.derivatives);
+      system.forces_and_matrix(x, v, {p.h * p.h, p.h, p.fabric_factor}, force, matrix);
+    }
+    Stopwatch watch(times.assembly);
+    contacts.add_forces_and_matrix(x, options.contact_stiffness, p.h * p.h, force, matrix);
+    right_hand_side.resize(system.nodes());
+    const double norm = finish_residual(p, v);
+    parallel_for_each(system.nodes(), kNodesPerTask, [&](int i) {
+      right_hand_side[i] = {float(b[i].x()), float(b[i].y()), float(b[i].z()), 0};
+      const double inertia = system.mass()[i] + p.h * air_drag_dissipation_hessian(options.air_drag, system.mass()[i]);
+      matrix.add(i, float(inertia) * Eigen::Matrix3f::Identity());
+      if ((*p.held)[i]) {
+        preconditioner.hold(i);
+      } else {
+        Eigen::Matrix3f diagonal = Eigen::Map<const Eigen::Matrix3f>(matrix.values(i));
+        if (contacts.coupled().size() > 0) diagonal += contacts.coupled().diagonal(i);
+        preconditioner.set(i, diagonal);
+      }
+    });
+    return norm;
+  }
+
+  SolverOptions options;
+  StaticSystem system;
+  BlockMatrix matrix;
+  BlockJacobi preconditioner;
+  std::vector<double> mass_in_cloth_order;
+  double weight_norm = 0;  ///< root of the sum of squared nodal weights [N]
+  ContactSystem contacts;
+  ConjugateGradient conjugate_gradient;
+  Positions force, b;
+  NodeVector right_hand_side, delta_v;
+};
+
+BackwardEuler::BackwardEuler(const Cloth& sewn, const SolverOptions& options)
+    : implementation_(std::make_unique<Implementation>(sewn, options)) {}
+BackwardEuler::~BackwardEuler() = default;
+BackwardEuler::BackwardEuler(BackwardEuler&&) noexcept = default;
+BackwardEuler& BackwardEuler::operator=(BackwardEuler&&) noexcept = default;
+
+StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor, std::vector<Contact>& contacts,
+                                const Kinematic& kinematic, StepTimes& times) {
+  Implementation& s = *implementation_;
+  const std::vector<int>&order = s.system.order(), &place = s.system.place();
+  const int nodes = s.system.nodes();
+  const Positions x0 = permuted(state.x, order), v0 = permuted(state.v, order);
+  std::vector<char> held(nodes);
+  Positions v(nodes), x(nodes), v_trial(nodes), x_trial(nodes);
+  for (int i = 0; i < nodes; ++i) {
+    const int vertex = order[i];
+    held[i] = kinematic.held[vertex] || !(s.system.mass()[i] > 0);
+    v[i] = kinematic.held[vertex] ? Vec3((kinematic.target[vertex] - x0[i]) / h) : v0[i];
+    if (!(s.system.mass()[i] > 0) && !kinematic.held[vertex]) v[i].setZero();
+    x[i] = x0[i] + h * v[i];
+  }
+  {
+    Stopwatch watch(times.assembly);
+    s.contacts.rebuild(contacts, place);
+  }
+  const StepProblem problem{&v0, &held, h, stiffness_factor};
+  const double at_rest = std::min(s.options.newton_tolerance, kRestFraction * h * s.weight_norm);
+
+  StepOutcome outcome;
+  double r_n = 0;
+  for (int i_n = 0; i_n < s.options.newton_iterations; ++i_n) {
+    r_n = s.residual_and_matrix(problem, x, v, times);
+    outcome.residual = r_n;
+    if (!std::isfinite(r_n)) return outcome;
+    ++outcome.newton_iterations;
+    {
+      Stopwatch watch(times.linear_solve);
+      outcome.cg_iterations += s.conjugate_gradient
+                                   .solve(s.matrix, s.contacts.coupled(), s.preconditioner, s.right_hand_side,
+                                          s.options.cg_tolerance, s.options.cg_iterations, s.delta_v)
+                                   .iterations;
+    }
+    Stopwatch watch(times.line_search);
+    double f_ls = 1;
+    bool diverged = true;
+    for (int i_ls = 0; i_ls < s.options.line_search_iterations; ++i_ls) {
+      parallel_for_each(nodes, kNodesPerTask, [&](int i) {
+        const Float4& d = s.delta_v[i];
+        v_trial[i] = v[i] + f_ls * Vec3(d.x, d.y, d.z);
+        x_trial[i] = x0[i] + h * v_trial[i];
+      });
+      const double norm = s.residual(problem, x_trial, v_trial);
+      if (norm < r_n) {
+        r_n = norm;
+        diverged = false;
+        v.swap(v_trial);
+        x.swap(x_trial);
+        break;
+      }
+      f_ls *= 0.5;
+      ++outcome.line_search_halvings;
+    }
+    outcome.residual = r_n;
+    outcome.accepted = diverged ? r_n < at_rest : r_n < s.options.newton_tolerance;
+    if (diverged || outcome.accepted) break;
+  }
+  if (!outcome.accepted) return outcome;
+  for (int i = 0; i < nodes; ++i) {
+    state.x[order[i]] = x[i];
+    state.v[order[i]] = v[i];
+  }
+  advance_anchors(contacts, s.options.contact_stiffness, state.x);
+  return outcome;
+}
+
+const std::vector<double>& BackwardEuler::masses() const { return implementation_->mass_in_cloth_order; }
+
+Energies BackwardEuler::energies(const State& state, const std::vector<Contact>& contacts) const {
+  const Implementation& s = *implementation_;
+  const Positions x = permuted(state.x, s.system.order());
+  Energies e;
+  e.membrane = s.system.membrane_energy_sum(x);
+  e.bending = s.system.bending_energy_sum(x);
+  if (!contacts.empty()) {
+    ContactSystem touching;
+    touching.rebuild(contacts, s.system.place());
+    e.contact = touching.energy(x, s.options.contact_stiffness);
+  }
+  for (std::size_t i = 0; i < state.x.size(); ++i) {
+    const double m = masses()[i];
+    if (s.options.gravity) e.gravity += gravity_energy(m, state.x[i]);
+    e.kinetic += 0.5 * m * state.v[i].squaredNorm();
+  }
+  return e;
+}
+
+std::vector<double> BackwardEuler::kinetic_energy(const State& state) const {
+  std::vector<double> energy(state.v.size());
+  for (std::size_t i = 0; i < energy.size(); ++i) energy[i] = 0.5 * masses()[i] * state.v[i].squaredNorm();
+  return energy;
+}
+
+Positions BackwardEuler::static_forces(const Positions& positions, const std::vector<Contact>& contacts) const {
+  const Implementation& s = *implementation_;
+  const Positions x = permuted(positions, s.system.order()), v(x.size(), Vec3::Zero());
+  Positions force;
+  s.system.forces(x, v, 1, force);
+  ContactSystem touching;
+  touching.rebuild(contacts, s.system.place());
+  touching.add_forces(x, s.options.contact_stiffness, force);
+  for (int i = 0; i < s.system.nodes(); ++i) force[i] += s.nodal_force(i, Vec3::Zero());
+  return permuted(force, s.system.place());
+}
+
+std::vector<double> BackwardEuler::contact_forces(const Positions& positions,
+                                                  const std::vector<Contact>& contacts) const {
+  const Implementation& s = *implementation_;
+  ContactSystem touching;
+  touching.rebuild(contacts, s.system.place());
+  std::vector<double> magnitude(positions.size(), 0.0);
+  touching.add_force_magnitudes(permuted(positions, s.system.order()), s.options.contact_stiffness, magnitude);
+  std::vector<double> in_cloth_order(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) in_cloth_order[i] = magnitude[s.system.place()[i]];
+  return in_cloth_order;
+}
+
+}  // namespace toile

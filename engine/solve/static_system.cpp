@@ -1,0 +1,133 @@
+#include "engine/solve/static_system.h"
+
+#include "engine/linear/ordering.h"
+#include "engine/parallel/reduce.h"
+#include "engine/terms/mass.h"
+
+namespace toile {
+
+namespace {
+
+/// Stencils per cluster: enough that a cluster's nodes stay in the first-level cache, few enough that a small mesh
+/// still gives every thread work.
+constexpr int kClusterSize = 32;
+
+template <std::size_t N>
+StencilPoints<N> gather(const Positions& x, const std::array<int, N>& nodes) {
+  StencilPoints<N> p;
+  for (std::size_t i = 0; i < N; ++i) p[i] = x[nodes[i]];
+  return p;
+}
+
+template <std::size_t N>
+void scatter(const std::array<Vec3, N>& f, const std::array<int, N>& nodes, Positions& force) {
+  for (std::size_t i = 0; i < N; ++i) force[nodes[i]] += f[i];
+}
+
+template <class Stencil>
+std::vector<int> node_list(const std::vector<Stencil>& stencils) {
+  std::vector<int> nodes;
+  for (const Stencil& s : stencils) nodes.insert(nodes.end(), s.nodes.begin(), s.nodes.end());
+  return nodes;
+}
+
+/// Renumbers the stencils' nodes, colours them and puts them in coloured order.
+template <class Stencil>
+ColoredStencils arrange(std::vector<Stencil>& stencils, const std::vector<int>& place) {
+  for (Stencil& s : stencils)
+    for (int& node : s.nodes) node = place[node];
+  constexpr int width = std::tuple_size_v<decltype(Stencil::nodes)>;
+  ColoredStencils colors = color_stencils(static_cast<int>(place.size()), node_list(stencils), width, kClusterSize);
+  std::vector<Stencil> arranged;
+  arranged.reserve(stencils.size());
+  for (int old : colors.order) arranged.push_back(stencils[old]);
+  stencils.swap(arranged);
+  return colors;
+}
+
+void clear(Positions& force, int nodes) { force.assign(nodes, Vec3::Zero()); }
+
+}  // namespace
+
+StaticSystem::StaticSystem(const Cloth& cloth)
+    : order_(reverse_cuthill_mckee(static_cast<int>(cloth.x.size()), cloth.triangles)),
+      place_(inverse_permutation(order_)),
+      membrane_(membrane_stencils(cloth)),
+      bending_(bending_stencils(cloth)) {
+  const std::vector<double> mass = lumped_masses(cloth);
+  for (int old : order_) mass_.push_back(mass[old]);
+  membrane_colors_ = arrange(membrane_, place_);
+  bending_colors_ = arrange(bending_, place_);
+
+  const std::vector<int> membrane_nodes = node_list(membrane_), bending_nodes = node_list(bending_);
+  const std::array<BlockMatrix::Stencils, 2> stencils = {
+      {{std::span<const int>(membrane_nodes), 3}, {std::span<const int>(bending_nodes), 4}}};
+  topology_ = BlockMatrix(nodes(), stencils);
+  for (const MembraneStencil& s : membrane_) {
+    const auto& n = s.nodes;
+    membrane_slots_.push_back({topology_.slot(n[0], n[1]), topology_.slot(n[0], n[2]), topology_.slot(n[1], n[2]),
+                               topology_.slot(n[1], n[0]), topology_.slot(n[2], n[0]), topology_.slot(n[2], n[1])});
+  }
+  for (const BendingStencil& s : bending_) {
+    std::array<int, 16>& slots = bending_slots_.emplace_back();
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) slots[4 * i + j] = topology_.slot(s.nodes[i], s.nodes[j]);
+  }
+}
+
+BlockMatrix StaticSystem::make_matrix() const { return topology_; }
+
+void StaticSystem::forces(const Positions& x, const Positions& v, double fabric_factor, Positions& force) const {
+  clear(force, nodes());
+  for_each_colored(membrane_colors_, [&](int k) {
+    const MembraneStencil& s = membrane_[k];
+    scatter(membrane_force(s, gather(x, s.nodes), gather(v, s.nodes), fabric_factor), s.nodes, force);
+  });
+  for_each_colored(bending_colors_, [&](int k) {
+    const BendingStencil& s = bending_[k];
+    scatter(bending_force(s, gather(x, s.nodes), gather(v, s.nodes), fabric_factor), s.nodes, force);
+  });
+}
+
+void StaticSystem::forces_and_matrix(const Positions& x, const Positions& v, const SystemWeights& weights,
+                                     Positions& force, BlockMatrix& matrix) const {
+  clear(force, nodes());
+  matrix.set_zero();
+  for_each_colored(membrane_colors_, [&](int k) {
+    const MembraneStencil& s = membrane_[k];
+    StencilResponse<3> r;
+    membrane_response(s, gather(x, s.nodes), gather(v, s.nodes), weights, r);
+    scatter(r.force, s.nodes, force);
+    for (int i = 0; i < 3; ++i) matrix.add(s.nodes[i], r.block[upper_block<3>(i, i)]);
+    const std::array<int, 3> off = {upper_block<3>(0, 1), upper_block<3>(0, 2), upper_block<3>(1, 2)};
+    for (int i = 0; i < 3; ++i) {
+      matrix.add(membrane_slots_[k][i], r.block[off[i]]);
+      matrix.add(membrane_slots_[k][3 + i], r.block[off[i]].transpose());
+    }
+  });
+  for_each_colored(bending_colors_, [&](int k) {
+    const BendingStencil& s = bending_[k];
+    BendingResponse r;
+    bending_response(s, gather(x, s.nodes), gather(v, s.nodes), weights, r);
+    scatter(r.force, s.nodes, force);
+    matrix.add_outer_products(bending_slots_[k], r.row);
+  });
+}
+
+double StaticSystem::membrane_energy_sum(const Positions& x) const {
+  return deterministic_sum(static_cast<int>(membrane_.size()), 1024, [&](int begin, int end) {
+    double sum = 0;
+    for (int k = begin; k < end; ++k) sum += membrane_energy(membrane_[k], gather(x, membrane_[k].nodes));
+    return sum;
+  });
+}
+
+double StaticSystem::bending_energy_sum(const Positions& x) const {
+  return deterministic_sum(static_cast<int>(bending_.size()), 1024, [&](int begin, int end) {
+    double sum = 0;
+    for (int k = begin; k < end; ++k) sum += bending_energy(bending_[k], gather(x, bending_[k].nodes));
+    return sum;
+  });
+}
+
+}  // namespace toile

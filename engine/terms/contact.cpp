@@ -1,0 +1,80 @@
+#include "engine/terms/contact.h"
+
+#include "engine/parallel/parallel_for.h"
+
+#include <algorithm>
+
+namespace toile {
+
+namespace {
+
+struct Split {
+  double normal_force;
+  Vec3 slip;                  ///< u
+  double slip_length, limit;  ///< |u| and μN/k [m]
+};
+
+Split split(const Contact& c, double stiffness, const Vec3& p) {
+  Split s;
+  s.normal_force = stiffness * std::max(0.0, c.distance - (c.normal.dot(p) - c.offset));
+  const Vec3 off = p - c.anchor;
+  s.slip = off - c.normal.dot(off) * c.normal;
+  s.slip_length = s.slip.norm();
+  s.limit = c.friction * s.normal_force / stiffness;
+  return s;
+}
+
+}  // namespace
+
+Vec3 contact_point(const Contact& c, const Positions& x) {
+  Vec3 p = Vec3::Zero();
+  for (int i = 0; i < c.count; ++i) p += c.weights[i] * x[c.nodes[i]];
+  return p;
+}
+
+double contact_gap(const Contact& c, const Positions& x) { return c.normal.dot(contact_point(c, x)) - c.offset; }
+
+double contact_energy(const Contact& c, double stiffness, const Vec3& p) {
+  const Split s = split(c, stiffness, p);
+  const double held = std::min(s.slip_length, s.limit);
+  return 0.5 * s.normal_force * s.normal_force / stiffness + 0.5 * stiffness * held * held +
+         stiffness * s.limit * (s.slip_length - held);
+}
+
+ContactResponse contact_response(const Contact& c, double stiffness, const Vec3& p) {
+  ContactResponse r;
+  const Split s = split(c, stiffness, p);
+  r.normal_force = s.normal_force;
+  if (!(s.normal_force > 0)) return r;
+  r.force = s.normal_force * c.normal;
+  const Mat3 across = c.normal * c.normal.transpose();
+  r.hessian = stiffness * across;
+  if (c.friction <= 0) return r;
+  const Mat3 tangent = Mat3::Identity() - across;
+  r.sliding = s.slip_length > s.limit;
+  if (!r.sliding) {
+    r.force -= stiffness * s.slip;
+    r.hessian += stiffness * tangent;
+  } else {
+    const Vec3 direction = s.slip / s.slip_length;
+    r.force -= stiffness * s.limit * direction;
+    r.hessian += stiffness * (s.limit / s.slip_length) * (tangent - direction * direction.transpose());
+  }
+  return r;
+}
+
+void advance_anchor(Contact& c, double stiffness, const Positions& x) {
+  const Vec3 p = contact_point(c, x);
+  const Split s = split(c, stiffness, p);
+  if (!(s.normal_force > 0)) {
+    c.anchor = p;
+  } else if (s.slip_length > s.limit) {
+    c.anchor += (1 - s.limit / s.slip_length) * s.slip;
+  }
+}
+
+void advance_anchors(std::vector<Contact>& contacts, double stiffness, const Positions& x) {
+  parallel_for_each(static_cast<int>(contacts.size()), 1024, [&](int i) { advance_anchor(contacts[i], stiffness, x); });
+}
+
+}  // namespace toile

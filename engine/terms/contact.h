@@ -1,0 +1,40 @@
+#pragma once
+// Repulsion and Coulomb friction of one frozen contact (engine/contact/contact.h).
+
+#include "engine/contact/contact.h"
+#include "engine/terms/stencil.h"
+
+namespace toile {
+
+/// All of a contact's mechanics happens at p(x) = Σ wᵢ xᵢ: node i feels wᵢ f(p), and the Hessian's block (i, j) is
+/// wᵢ wⱼ H(p). With unit normal n, stiffness k [N/m], depth d = distance − gap(p):
+///   repulsion   E = ½ k max(0, d)²,  normal force N = k max(0, d)   [point repulsion, the first seed's §3.2];
+///   friction    u = (I − n nᵀ)(p − anchor), an elastic–plastic spring: force −k u while k |u| ≤ μ N (sticks, with the
+///               energy ½ k |u|²), else −μ N u/|u| (slides)   [Coulomb; anchored springs after Yamane & Nakamura 2006].
+/// N is the one at p, not that of the step's start: at a solution the cone condition holds exactly and a resting
+/// contact does not creep. The Hessian is positive semi-definite: k n nᵀ + k T while sticking, k n nᵀ + (μ N/|u|)(T − û
+/// ûᵀ) while sliding; the coupling −μ k û (−nᵀ) of friction to the normal force is not symmetric and is left out
+/// (Newton then converges linearly there).
+struct ContactResponse {
+  Vec3 force = Vec3::Zero();    ///< f(p) [N]
+  Mat3 hessian = Mat3::Zero();  ///< H(p) [N/m]
+  double normal_force = 0;      ///< N [N]
+  bool sliding = false;
+};
+
+/// p(x)
+Vec3 contact_point(const Contact& c, const Positions& x);
+/// gap(x) [m]
+double contact_gap(const Contact& c, const Positions& x);
+
+/// Repulsion's energy [J] and, while the contact sticks, the tangential spring's; a sliding contact counts the spring's
+/// energy at the cone (½ (μN)²/k) plus μN times the distance beyond it, whose gradient at fixed N is the force.
+double contact_energy(const Contact& c, double stiffness, const Vec3& p);
+ContactResponse contact_response(const Contact& c, double stiffness, const Vec3& p);
+
+/// To be called with the state after an accepted step: a contact that slid drags its anchor along so that the spring is
+/// exactly at the cone; one that is open (N = 0) forgets its anchor. Frictional history lives in the anchors alone.
+void advance_anchor(Contact& c, double stiffness, const Positions& x);
+void advance_anchors(std::vector<Contact>& contacts, double stiffness, const Positions& x);
+
+}  // namespace toile
