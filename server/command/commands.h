@@ -1,0 +1,40 @@
+#pragma once
+// The commands of the executable: plain arguments in, exit status out. One file each; an exception is a failure (1).
+
+#include <string>
+
+namespace toile {
+
+struct DrapeArguments {
+  std::string scene, out;
+  int progress_fd = -1;  ///< -1: none
+  int threads = 0;
+};
+int run_drape(const DrapeArguments& arguments);
+
+struct RenderArguments {
+  std::string job, view = "front", overlay = "fabric", out;
+  int width = 1024, height = 1024;  ///< pixels
+};
+int run_render(const RenderArguments& arguments);
+
+struct ServeArguments {
+  std::string host = "127.0.0.1";
+  int port = 8710;
+  int health_port = -1;  ///< -1: none
+  std::string data = "toile-data";
+  int workers = 0;
+  int run_limit_s = 3600;
+  int run_memory_mib = 16384;
+  int max_queued = 10000;
+  std::string runner;
+};
+int run_serve(const ServeArguments& arguments);
+
+struct HealthArguments {
+  std::string host = "127.0.0.1";
+  int port = 8710;
+};
+int run_health(const HealthArguments& arguments);
+
+}  // namespace toile
