@@ -10,6 +10,7 @@ struct Directional {
   double warp = 0;
   double weft = 0;
   double bias = 0;
+  bool operator==(const Directional&) const = default;
 };
 
 /// Anisotropic sheet. Membrane energy density (St. Venant–Kirchhoff, per rest area):
@@ -27,6 +28,7 @@ struct Fabric {
   double membrane_damping = 1e-2;   ///< beta_s of the first seed's §5.3 [s]
   double bending_damping = 1e-1;    ///< beta_b of the first seed's §5.3 [s]
   bool woven = true;                ///< false for knits; the report's stretch warnings depend on it
+  bool operator==(const Fabric&) const = default;
 };
 
 }  // namespace toile

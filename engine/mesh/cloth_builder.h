@@ -1,0 +1,18 @@
+#pragma once
+// The two ways a garment becomes part of a cloth; build_cloth() calls them.
+
+#include "engine/mesh/cloth.h"
+#include "engine/scene/scene.h"
+
+namespace toile {
+
+/// Adds one pattern garment: panels, labels, seam pairs. Errors as build_cloth().
+void add_pattern(const Garment& garment, const Pattern& pattern, int garment_index, Cloth& cloth);
+
+/// Adds one mesh garment; groups become panels. Errors as build_cloth().
+void add_garment_mesh(const Garment& garment, const GarmentMesh& shape, int garment_index, Cloth& cloth);
+
+/// Index into cloth.fabrics of a panel's fabric; adds it at first use.
+int fabric_of(const Garment& garment, const std::string& panel_name, const Fabric* panel_fabric, Cloth& cloth);
+
+}  // namespace toile

@@ -1,0 +1,90 @@
+#include "engine/mesh/sewing.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace toile {
+namespace {
+
+int find_root(std::vector<int>& parent, int vertex) {
+  while (parent[static_cast<std::size_t>(vertex)] != vertex) {
+    int& up = parent[static_cast<std::size_t>(vertex)];
+    up = parent[static_cast<std::size_t>(up)];
+    vertex = up;
+  }
+  return vertex;
+}
+
+void drop_collapsed(Cloth& cloth) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < cloth.triangles.size(); ++t) {
+    const Triangle& v = cloth.triangles[t];
+    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
+    cloth.triangles[kept] = v;
+    cloth.flat[kept] = cloth.flat[t];
+    cloth.triangle_panel[kept] = cloth.triangle_panel[t];
+    ++kept;
+  }
+  const std::size_t dropped = cloth.triangles.size() - kept;
+  if (dropped == 0) return;
+  cloth.triangles.resize(kept);
+  cloth.flat.resize(kept);
+  cloth.triangle_panel.resize(kept);
+  cloth.warnings.push_back("collapsed_triangles: " + std::to_string(dropped) +
+                           " triangles had corners that a seam makes one and were dropped");
+}
+
+}  // namespace
+
+std::vector<int> seam_representatives(const Cloth& cloth) {
+  std::vector<int> parent(cloth.x.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const SeamPair& pair : cloth.seam_pairs) {
+    const int a = find_root(parent, pair.a), b = find_root(parent, pair.b);
+    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+  for (int v = 0; v < static_cast<int>(parent.size()); ++v) parent[static_cast<std::size_t>(v)] = find_root(parent, v);
+  return parent;
+}
+
+double seam_gap_max(const Cloth& cloth) {
+  double gap = 0;
+  for (const SeamPair& pair : cloth.seam_pairs) {
+    gap = std::max(gap, (cloth.x[static_cast<std::size_t>(pair.a)] - cloth.x[static_cast<std::size_t>(pair.b)]).norm());
+  }
+  return gap;
+}
+
+std::vector<int> merge_seams(Cloth& cloth) {
+  const std::vector<int> root = seam_representatives(cloth);
+  std::vector<int> renumbered(root.size(), -1), members;
+  Positions merged;
+  std::vector<int> garment;
+  for (std::size_t v = 0; v < root.size(); ++v) {
+    const auto r = static_cast<std::size_t>(root[v]);
+    if (renumbered[r] < 0) {
+      renumbered[r] = static_cast<int>(merged.size());
+      merged.push_back(Vec3::Zero());
+      members.push_back(0);
+      garment.push_back(cloth.vertex_garment[v]);
+    }
+    renumbered[v] = renumbered[r];
+    merged[static_cast<std::size_t>(renumbered[v])] += cloth.x[v];
+    ++members[static_cast<std::size_t>(renumbered[v])];
+  }
+  for (std::size_t v = 0; v < merged.size(); ++v) merged[v] /= members[v];
+  cloth.x = std::move(merged);
+  cloth.vertex_garment = std::move(garment);
+  for (Triangle& triangle : cloth.triangles) {
+    for (int& vertex : triangle) vertex = renumbered[static_cast<std::size_t>(vertex)];
+  }
+  for (LabelledVertices& label : cloth.labels) {
+    for (int& vertex : label.vertices) vertex = renumbered[static_cast<std::size_t>(vertex)];
+    label.vertices.erase(std::unique(label.vertices.begin(), label.vertices.end()), label.vertices.end());
+  }
+  cloth.seam_pairs.clear();
+  drop_collapsed(cloth);
+  return renumbered;
+}
+
+}  // namespace toile

@@ -1,0 +1,21 @@
+#pragma once
+// Joining the panels of a cloth along its seam pairs.
+
+#include "engine/mesh/cloth.h"
+
+#include <vector>
+
+namespace toile {
+
+/// Per vertex, the smallest vertex that seams join it to (itself where it is in no seam). The cloth is unchanged.
+std::vector<int> seam_representatives(const Cloth& cloth);
+
+/// Largest distance between the two vertices of a seam pair [m]; 0 without pairs.
+double seam_gap_max(const Cloth& cloth);
+
+/// Makes one vertex of each set that seam pairs join, at the mean of the set's positions; renumbers in order of first
+/// occurrence, remaps triangles and labels, empties seam_pairs. Triangles whose corners become one are dropped with a
+/// warning. Returns the new index of each old vertex.
+std::vector<int> merge_seams(Cloth& cloth);
+
+}  // namespace toile
