@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <optional>
 
 namespace toile {
 
 namespace {
 
-/// A triangle's height over the shared edge counts as this fraction of the edge at least, so that derivatives of a
-/// collapsed hinge stay finite. Far below any height that a double can hold in a mesh.
+/// A wing whose height over the shared edge is below this fraction of the edge has no normal that a double can hold.
 constexpr double kLeastHeight = 1e-15;
 
 /// One wing of the hinge: the gradient with respect to its tip and the foot of the tip on the edge.
@@ -21,12 +21,8 @@ struct Wing {
 };
 
 Wing make_wing(const Vec3& normal, const Vec3& tip, const Vec3& e, double length2) {
-  Wing wing;
-  wing.normal = normal;
-  wing.squared = std::max(normal.squaredNorm(), std::max(kLeastHeight * kLeastHeight * length2 * length2, DBL_MIN));
-  wing.foot = tip.dot(e) / length2;
-  wing.gradient = -std::sqrt(length2) / wing.squared * normal;
-  return wing;
+  const double squared = normal.squaredNorm();
+  return {normal, squared, tip.dot(e) / length2, -std::sqrt(length2) / squared * normal};
 }
 
 struct Hinge {
@@ -35,15 +31,13 @@ struct Hinge {
   Wing first, second;
 };
 
-Hinge make_hinge(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3) {
-  Hinge h;
-  h.e = x1 - x0;
-  h.u = x2 - x0;
-  h.v = x3 - x0;
-  h.length2 = std::max(h.e.squaredNorm(), DBL_MIN);
-  h.first = make_wing(h.e.cross(h.u), h.u, h.e, h.length2);
-  h.second = make_wing(h.v.cross(h.e), h.v, h.e, h.length2);
-  return h;
+/// Nothing for a hinge with a wing of no area: it has no angle.
+std::optional<Hinge> make_hinge(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3) {
+  const Vec3 e = x1 - x0, u = x2 - x0, v = x3 - x0, n1 = e.cross(u), n2 = v.cross(e);
+  const double length2 = e.squaredNorm();
+  const double least = std::max(kLeastHeight * kLeastHeight * length2 * length2, DBL_MIN);
+  if (!(n1.squaredNorm() > least && n2.squaredNorm() > least)) return std::nullopt;
+  return Hinge{e, u, v, length2, make_wing(n1, u, e, length2), make_wing(n2, v, e, length2)};
 }
 
 Mat3 cross_matrix(const Vec3& a) {
@@ -81,7 +75,9 @@ double dihedral_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3
 }
 
 Vec12 dihedral_angle_gradient(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3) {
-  const Hinge h = make_hinge(x0, x1, x2, x3);
+  const std::optional<Hinge> hinge = make_hinge(x0, x1, x2, x3);
+  if (!hinge) return Vec12::Zero();
+  const Hinge& h = *hinge;
   Vec12 gradient;
   gradient.segment<3>(0) = -(1 - h.first.foot) * h.first.gradient - (1 - h.second.foot) * h.second.gradient;
   gradient.segment<3>(3) = -h.first.foot * h.first.gradient - h.second.foot * h.second.gradient;
@@ -91,7 +87,9 @@ Vec12 dihedral_angle_gradient(const Vec3& x0, const Vec3& x1, const Vec3& x2, co
 }
 
 Mat12 dihedral_angle_hessian(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3) {
-  const Hinge h = make_hinge(x0, x1, x2, x3);
+  const std::optional<Hinge> hinge = make_hinge(x0, x1, x2, x3);
+  if (!hinge) return Mat12::Zero();
+  const Hinge& h = *hinge;
   const WingDerivative d1 = differentiate(h.first, h.u, h.e, h.length2, 1);
   const WingDerivative d2 = differentiate(h.second, h.v, h.e, h.length2, -1);
 

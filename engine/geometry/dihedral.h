@@ -12,7 +12,7 @@ using Mat12 = Eigen::Matrix<double, 12, 12>;
 ///   θ = atan2( e·(N1 × N2), |e| N1·N2 ),  e = x1 − x0,  N1 = e × (x2 − x0),  N2 = (x3 − x0) × e.
 /// In (−π, π], 0 where flat, positive where the hinge is a ridge seen from the side that the normals point to (a convex
 /// surface with outward normals). Exact up to ±180°; Tamstorf & Grinspun 2013, "Discrete bending forces and their
-/// Jacobians". A hinge with a triangle of no area has the angle 0 and finite derivatives.
+/// Jacobians". A hinge with a triangle of no area has the angle 0 and derivatives 0.
 double dihedral_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3);
 
 /// ∂θ/∂(x0, x1, x2, x3) [1/m]:

@@ -94,7 +94,7 @@ TEST(SegmentSegment, ParallelOverlapGivesItsMiddle) {
 TEST(SegmentSegment, NearlyParallelStaysExact) {
   for (double tilt : {0.0, 1e-15, 1e-12, 1e-9, 1e-8, 1e-7, 1e-6, 1e-4}) {
     const SegmentSegment r = segment_segment({0, 0, 0}, {1, 0, 0}, {0, 1 - tilt, tilt}, {1, 1 + tilt, -tilt});
-    EXPECT_NEAR(std::sqrt(r.squared_distance), 1 - tilt, 1e-6 * tilt + 2e-12) << tilt;
+    EXPECT_NEAR(std::sqrt(r.squared_distance), std::hypot(1 - tilt, tilt), 2e-12) << tilt;
     EXPECT_GE(std::min(r.s, r.t), 0);
     EXPECT_LE(std::max(r.s, r.t), 1);
   }

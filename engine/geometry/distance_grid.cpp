@@ -1,0 +1,213 @@
+#include "engine/geometry/distance_grid.h"
+
+#include "engine/geometry/bvh.h"
+#include "engine/geometry/distance.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace toile {
+
+namespace {
+
+/// Half the width of the fine band in fine cells: the stencil of a cell that the surface crosses stays within it.
+constexpr double kFineBand = 2.0;
+/// Fine nodes farther away than this many fine cells take the coarse grid's value: no cell that matters reads them.
+constexpr double kExactBand = 5.0;
+
+/// Exact signed distances along lines of nodes: the last answer bounds the next search, and the sign is asked for again
+/// only where the surface is near enough to have been crossed.
+class Walker {
+ public:
+  Walker(const Bvh& bvh, const SoupSolid& solid) : bvh_(bvh), solid_(solid) {}
+
+  double signed_distance(const Vec3& p) {
+    const double limit = triangle_ < 0 ? std::numeric_limits<double>::infinity() : squared(triangle_, p);
+    const int nearer = bvh_.nearest(p, limit, [&](int t) { return squared(t, p); });
+    const double distance = std::sqrt(nearer < 0 ? limit : squared(nearer, p));
+    if (nearer >= 0) triangle_ = nearer;
+    const double step = (p - last_point_).norm();
+    // A ball around either point that reaches the other one holds no surface: both lie on the same side.
+    const bool same_side = known_ && step < std::max(distance, std::abs(last_distance_));
+    const bool inside = same_side ? last_distance_ < 0 : solid_.inside(p);
+    known_ = true;
+    last_point_ = p;
+    last_distance_ = inside ? -distance : distance;
+    return last_distance_;
+  }
+
+ private:
+  double squared(int t, const Vec3& p) const {
+    const auto& [a, b, c] = solid_.triangles[t];
+    return point_triangle(p, solid_.vertices[a], solid_.vertices[b], solid_.vertices[c]).squared_distance;
+  }
+
+  const Bvh& bvh_;
+  const SoupSolid& solid_;
+  int triangle_ = -1;
+  bool known_ = false;
+  Vec3 last_point_ = Vec3::Zero();
+  double last_distance_ = 0;
+};
+
+Bvh triangle_bvh(const SoupSolid& solid) {
+  std::vector<Box> boxes;
+  boxes.reserve(solid.triangles.size());
+  for (const auto& [a, b, c] : solid.triangles) {
+    boxes.push_back(triangle_box(solid.vertices[a], solid.vertices[b], solid.vertices[c]));
+  }
+  return Bvh(boxes);
+}
+
+double mix(double a, double b, double t) { return a + t * (b - a); }
+
+}  // namespace
+
+DistanceGrid::DistanceGrid(const SoupSolid& solid, const GridSettings& settings) : settings_(settings) {
+  const Bvh bvh = triangle_bvh(solid);
+  Box box;
+  for (const Triangle& t : solid.triangles) {
+    for (int v : t) box.extend(solid.vertices[v]);
+  }
+  box = box.inflated(settings.margin);
+  // Bricks tile the coarse grid's box, which begins and ends on the border of a brick.
+  const double brick_size = kBrick * settings.fine_spacing;
+  coarse_.origin = box.lower;
+  coarse_.spacing = settings.coarse_spacing;
+  for (int k = 0; k < 3; ++k) {
+    bricks_[k] = static_cast<int>(std::ceil((box.upper[k] - box.lower[k]) / brick_size));
+    coarse_.nodes[k] = std::max(4, static_cast<int>(std::ceil(bricks_[k] * brick_size / coarse_.spacing)) + 1);
+  }
+  coarse_values_.resize(coarse_.size());
+  tbb::parallel_for(0, coarse_.nodes[2], [&](int k) {
+    Walker walker(bvh, solid);
+    for (int j = 0; j < coarse_.nodes[1]; ++j) {
+      for (int i = 0; i < coarse_.nodes[0]; ++i) {
+        // To and fro, so that each node is next to the one before it.
+        const int forth = j % 2 == 0 ? i : coarse_.nodes[0] - 1 - i;
+        coarse_values_[coarse_.index(forth, j, k)] =
+            static_cast<float>(walker.signed_distance(coarse_.point(forth, j, k)));
+      }
+    }
+  });
+
+  brick_index_.assign(static_cast<size_t>(bricks_[0]) * bricks_[1] * bricks_[2], -1);
+  const auto corner_of = [&](int b) {
+    const int i = b % bricks_[0], j = b / bricks_[0] % bricks_[1], k = b / bricks_[0] / bricks_[1];
+    return Vec3(coarse_.origin + brick_size * Vec3(i, j, k));
+  };
+  const double reach = 0.5 * std::sqrt(3.0) * brick_size + kFineBand * settings.fine_spacing;
+  tbb::parallel_for(0, static_cast<int>(brick_index_.size()), [&](int b) {
+    const Vec3 center = corner_of(b).array() + 0.5 * brick_size;
+    const int found = bvh.nearest(center, reach * reach, [&](int t) {
+      const auto& [x, y, z] = solid.triangles[t];
+      return point_triangle(center, solid.vertices[x], solid.vertices[y], solid.vertices[z]).squared_distance;
+    });
+    brick_index_[b] = found >= 0 ? 0 : -1;
+  });
+  std::vector<int> kept;
+  for (int b = 0; b < static_cast<int>(brick_index_.size()); ++b) {
+    if (brick_index_[b] < 0) continue;
+    brick_index_[b] = static_cast<int>(kept.size());
+    kept.push_back(b);
+  }
+  constexpr int kNodes = kBrickNodes * kBrickNodes * kBrickNodes;
+  brick_values_.resize(kept.size() * kNodes);
+  tbb::parallel_for(0, static_cast<int>(kept.size()), [&](int n) {
+    const Vec3 first = corner_of(kept[n]).array() - settings.fine_spacing;
+    float* values = &brick_values_[static_cast<size_t>(n) * kNodes];
+    Walker walker(bvh, solid);
+    for (int k = 0; k < kBrickNodes; ++k) {
+      for (int jj = 0; jj < kBrickNodes; ++jj) {
+        const int j = k % 2 == 0 ? jj : kBrickNodes - 1 - jj;
+        for (int ii = 0; ii < kBrickNodes; ++ii) {
+          const int i = (k * kBrickNodes + jj) % 2 == 0 ? ii : kBrickNodes - 1 - ii;
+          const Vec3 point = first + settings.fine_spacing * Vec3(i, j, k);
+          const double about = trilinear(coarse_cell_at(into_coarse(point)));
+          const bool far = std::abs(about) > kExactBand * settings.fine_spacing;
+          values[(k * kBrickNodes + j) * kBrickNodes + i] =
+              static_cast<float>(far ? about : walker.signed_distance(point));
+        }
+      }
+    }
+  });
+}
+
+Vec3 DistanceGrid::into_coarse(const Vec3& p) const {
+  const Vec3 last(coarse_.nodes[0] - 1, coarse_.nodes[1] - 1, coarse_.nodes[2] - 1);
+  return p.cwiseMax(coarse_.origin).cwiseMin(coarse_.origin + coarse_.spacing * last);
+}
+
+DistanceGrid::Cell DistanceGrid::cell_at(const Vec3& p) const {
+  const Vec3 from = p - coarse_.origin;
+  const Vec3 fine = from / settings_.fine_spacing;
+  std::array<int, 3> cell, brick;
+  for (int k = 0; k < 3; ++k) {
+    cell[k] = std::clamp(static_cast<int>(fine[k]), 0, bricks_[k] * kBrick - 1);
+    brick[k] = cell[k] / kBrick;
+  }
+  const int index = brick_index_[(static_cast<size_t>(brick[2]) * bricks_[1] + brick[1]) * bricks_[0] + brick[0]];
+  if (index >= 0) {
+    constexpr int n = kBrickNodes;
+    const size_t first =
+        static_cast<size_t>(index) * n * n * n + ((cell[2] % kBrick) * n + cell[1] % kBrick) * n + cell[0] % kBrick;
+    return {&brick_values_[first], n, n * n, fine - Vec3(cell[0], cell[1], cell[2]), settings_.fine_spacing};
+  }
+  return coarse_cell_at(p);
+}
+
+DistanceGrid::Cell DistanceGrid::coarse_cell_at(const Vec3& p) const {
+  const Vec3 coarse = (p - coarse_.origin) / coarse_.spacing;
+  std::array<int, 3> cell;
+  // The outermost cells have no stencil of their own and extrapolate that of their neighbour.
+  for (int k = 0; k < 3; ++k) cell[k] = std::clamp(static_cast<int>(coarse[k]), 1, coarse_.nodes[k] - 3);
+  return {&coarse_values_[coarse_.index(cell[0] - 1, cell[1] - 1, cell[2] - 1)], coarse_.nodes[0],
+          coarse_.nodes[0] * coarse_.nodes[1], coarse - Vec3(cell[0], cell[1], cell[2]), coarse_.spacing};
+}
+
+double DistanceGrid::trilinear(const Cell& cell) {
+  const auto row = [&](int b, int c) {
+    const float* r = cell.first + b * cell.stride_y + c * cell.stride_z;
+    return mix(r[1], r[2], cell.at.x());
+  };
+  return mix(mix(row(1, 1), row(2, 1), cell.at.y()), mix(row(1, 2), row(2, 2), cell.at.y()), cell.at.z());
+}
+
+double DistanceGrid::distance(const Vec3& p) const {
+  const Vec3 within = into_coarse(p);
+  const double value = trilinear(cell_at(within));
+  const double beyond = (p - within).norm();
+  return beyond > 0 ? std::hypot(value, beyond) : value;
+}
+
+FieldSample DistanceGrid::sample(const Vec3& p) const {
+  const Vec3 within = into_coarse(p);
+  const Cell cell = cell_at(within);
+  const auto [x, y, z] = std::array{cell.at.x(), cell.at.y(), cell.at.z()};
+  const auto value = [&](int a, int b, int c) -> double {
+    return cell.first[a + b * cell.stride_y + c * cell.stride_z];
+  };
+  // The field on the four planes of the stencil across each axis, at the point's place within the plane.
+  std::array<double, 4> across_x, across_y, across_z;
+  for (int i = 0; i < 4; ++i) {
+    across_x[i] = mix(mix(value(i, 1, 1), value(i, 2, 1), y), mix(value(i, 1, 2), value(i, 2, 2), y), z);
+    across_y[i] = mix(mix(value(1, i, 1), value(2, i, 1), x), mix(value(1, i, 2), value(2, i, 2), x), z);
+    across_z[i] = mix(mix(value(1, 1, i), value(2, 1, i), x), mix(value(1, 2, i), value(2, 2, i), x), y);
+  }
+  const auto slope = [](const std::array<double, 4>& f, double t) { return mix(f[2] - f[0], f[3] - f[1], t); };
+  Vec3 gradient(slope(across_x, x), slope(across_y, y), slope(across_z, z));
+  gradient /= 2 * cell.spacing;
+  double distance = mix(across_x[1], across_x[2], x);
+  const Vec3 beyond = p - within;
+  if (beyond.squaredNorm() > 0) {
+    gradient = distance * gradient + beyond;
+    distance = std::hypot(distance, beyond.norm());
+  }
+  const double length = gradient.norm();
+  // On a medial axis the differences cancel; any direction is as near as another there.
+  return {distance, length > 1e-6 ? Vec3(gradient / length) : Vec3::UnitY()};
+}
+
+}  // namespace toile
