@@ -9,6 +9,9 @@ namespace toile {
 
 namespace {
 
+/// Twice a triangle's flat area over its squared edges: below this it has no area but rounding.
+constexpr double kFlattest = 1e-10;
+
 using Mat32 = Eigen::Matrix<double, 3, 2>;
 using Mat23 = Eigen::Matrix<double, 2, 3>;
 
@@ -132,7 +135,8 @@ std::vector<MembraneStencil> membrane_stencils(const Cloth& cloth) {
     rest.col(0) = flat[1] - flat[0];
     rest.col(1) = flat[2] - flat[0];
     const double doubled = std::abs(rest.determinant());
-    if (!(doubled > 0)) throw std::invalid_argument("triangle " + std::to_string(t) + " has no flat area");
+    if (!(doubled > kFlattest * rest.squaredNorm()))
+      throw std::invalid_argument("triangle " + std::to_string(t) + " has no flat area");
     MembraneStencil& s = stencils[t];
     s.nodes = cloth.triangles[t];
     s.rest_area = 0.5 * doubled;

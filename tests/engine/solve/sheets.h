@@ -24,8 +24,8 @@ inline Fabric suiting() { return isotropic_fabric(0.2, 500, 50, 50, 5e-6); }
 /// How a flat point (u weft, v warp) [m] lies in space at the start.
 inline Vec3 lie_flat(const Vec2& uv) { return {uv.x(), 0, uv.y()}; }
 
-/// Equilateral lattice on [0, columns · edge] × [0, rows · edge · √3/2]: rows of edges run along u; odd rows are shifted by half an
-/// edge and closed with half triangles, so the outline is a rectangle. Vertices row by row.
+/// Equilateral lattice on [0, columns · edge] × [0, rows · edge · √3/2]: rows of edges run along u; odd rows are
+/// shifted by half an edge and closed with half triangles, so the outline is a rectangle. Vertices row by row.
 template <class Place>
 Cloth equilateral_sheet(int columns, int rows, double edge, const Fabric& fabric, const Place& place) {
   Cloth cloth;
