@@ -12,10 +12,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
 
   toile::DrapeArguments drape;
-  CLI::App* drape_command = app.add_subcommand(
-      "drape",
-      "Drapes one scene. Exit status: 0 done, 2 bad input (the problem on stderr), 3 not converged (report and mesh are "
-      "written), 4 cancelled.");
+  CLI::App* drape_command = app.add_subcommand("drape",
+                                               "Drapes one scene. Exit status: 0 done, 2 bad input (the problem on "
+                                               "stderr), 3 not converged (report and mesh are "
+                                               "written), 4 cancelled.");
   drape_command->add_option("scene", drape.scene, "The scene, JSON; its files are relative to it")->required();
   drape_command->add_option("--out", drape.out, "Folder for report.json, mesh.obj, mesh.glb and previews")->required();
   drape_command->add_option("--progress-fd", drape.progress_fd, "Write progress as JSON lines to this descriptor")
@@ -26,8 +26,10 @@ int main(int argc, char** argv) {
   toile::RenderArguments render;
   CLI::App* render_command = app.add_subcommand("render", "Draws another picture of a drape that is done.");
   render_command->add_option("--job", render.job, "Folder that `toile drape --out` wrote")->required();
-  render_command->add_option("--view", render.view, "front, back, left, right, three_quarter or top")->capture_default_str();
-  render_command->add_option("--overlay", render.overlay, "fabric, stretch, contact or wireframe")->capture_default_str();
+  render_command->add_option("--view", render.view, "front, back, left, right, three-quarter or top")
+      ->capture_default_str();
+  render_command->add_option("--overlay", render.overlay, "fabric, stretch, contact or wireframe")
+      ->capture_default_str();
   render_command->add_option("--width", render.width, "Pixels")->check(CLI::Range(16, 8192))->capture_default_str();
   render_command->add_option("--height", render.height, "Pixels")->check(CLI::Range(16, 8192))->capture_default_str();
   render_command->add_option("--out", render.out, "The PNG to write")->required();

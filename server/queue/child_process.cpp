@@ -180,7 +180,7 @@ ChildEnd run_child(const ChildCommand& command, const ChildWatch& watch) {
 
   const auto started = SteadyClock::now();
   auto next_tick = started + watch.period;
-  std::optional<SteadyClock::time_point> kill_at;
+  auto kill_at = SteadyClock::time_point::max();
   std::optional<ChildEnd::How> ended_by_us;
   const auto end_by_us = [&](ChildEnd::How how) {
     if (ended_by_us) return;
@@ -200,7 +200,7 @@ ChildEnd run_child(const ChildCommand& command, const ChildWatch& watch) {
   for (bool running = true; running;) {
     auto until = next_tick;
     if (watch.wall_limit.count() > 0 && !ended_by_us) until = std::min(until, started + watch.wall_limit);
-    if (kill_at) until = std::min(until, *kill_at);
+    until = std::min(until, kill_at);
     const auto wait = std::chrono::ceil<std::chrono::milliseconds>(until - SteadyClock::now()).count();
     std::array<pollfd, 4> ready{pollfd{exit_notice.get(), POLLIN, 0}, pollfd{progress.read_end.get(), POLLIN, 0},
                                 pollfd{errors.read_end.get(), POLLIN, 0}, pollfd{watch.wake_fd, POLLIN, 0}};
@@ -221,9 +221,9 @@ ChildEnd run_child(const ChildCommand& command, const ChildWatch& watch) {
     }
     if (running && tick && watch.keep_running && !watch.keep_running()) end_by_us(ChildEnd::How::stopped);
     if (watch.wall_limit.count() > 0 && now >= started + watch.wall_limit) end_by_us(ChildEnd::How::timed_out);
-    if (kill_at && now >= *kill_at) {
+    if (now >= kill_at) {
       kill(-child, SIGKILL);
-      kill_at.reset();
+      kill_at = SteadyClock::time_point::max();
     }
   }
 

@@ -25,8 +25,8 @@ struct ChildCommand {
   ChildLimits limits;
 };
 
-/// The child writes its lines (JSON, one object a line) to this descriptor. When the reader of it is gone, the server is
-/// dead, and the child has to end by itself.
+/// The child writes its lines (JSON, one object a line) to this descriptor. When the reader of it is gone, the server
+/// is dead, and the child has to end by itself.
 inline constexpr int kProgressFd = 3;
 
 /// Its functions are called on the thread of run_child and must not throw.
@@ -35,9 +35,9 @@ struct ChildWatch {
   /// Called once a period and whenever `wake_fd` is readable; false: end the child.
   std::function<bool()> keep_running;
   std::chrono::milliseconds period{1000};
-  std::chrono::milliseconds wall_limit{0};   ///< 0: none
-  std::chrono::milliseconds grace{5000};     ///< between SIGTERM and SIGKILL
-  int wake_fd = -1;                          ///< an eventfd, or -1
+  std::chrono::milliseconds wall_limit{0};  ///< 0: none
+  std::chrono::milliseconds grace{5000};    ///< between SIGTERM and SIGKILL
+  int wake_fd = -1;                         ///< an eventfd, or -1
 };
 
 struct ChildEnd {

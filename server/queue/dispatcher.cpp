@@ -82,7 +82,8 @@ void Dispatcher::stop() {
 
 bool Dispatcher::is_healthy() const {
   const auto oldest = SteadyClock::now() - kSignOfLife;
-  return std::all_of(workers_.begin(), workers_.end(), [&](const auto& worker) { return worker->last_sign.load() > oldest; });
+  return std::all_of(workers_.begin(), workers_.end(),
+                     [&](const auto& worker) { return worker->last_sign.load() > oldest; });
 }
 
 void Dispatcher::idle() {
@@ -136,11 +137,12 @@ void Dispatcher::run(Worker& worker, const Lease& lease) {
       }
       return state == LeaseState::held;
     };
-    const ChildEnd end = run_child({{options_.runner, "drape", "scene.json", "--out", "out", "--progress-fd",
-                                     std::to_string(kProgressFd), "--threads", std::to_string(options_.threads_per_run)},
-                                    folder.path().string(),
-                                    options_.limits},
-                                   watch);
+    const ChildEnd end =
+        run_child({{options_.runner, "drape", "scene.json", "--out", "out", "--progress-fd",
+                    std::to_string(kProgressFd), "--threads", std::to_string(options_.threads_per_run)},
+                   folder.path().string(),
+                   options_.limits},
+                  watch);
     worker.sign_of_life();
     outcome = judge(end, lines);
     if (outcome.keeps_artifacts) outcome.artifacts = collect_artifacts(folder.out());

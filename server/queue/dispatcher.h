@@ -27,9 +27,9 @@
 namespace toile {
 
 struct DispatcherOptions {
-  std::string runner;           ///< executable that understands `drape SCENE --out DIR --progress-fd N --threads N`
-  std::filesystem::path runs;   ///< parent of the runs' folders; emptied at start
-  int workers = 1;              ///< runs at once
+  std::string runner;          ///< executable that understands `drape SCENE --out DIR --progress-fd N --threads N`
+  std::filesystem::path runs;  ///< parent of the runs' folders; emptied at start
+  int workers = 1;             ///< runs at once
   int threads_per_run = 1;
   ChildLimits limits;
   std::chrono::milliseconds wall_limit{std::chrono::hours(1)};
@@ -43,7 +43,8 @@ struct DispatcherOptions {
 /// Thread-safe.
 class Dispatcher {
  public:
-  /// Releases the leases of the process before, empties the runs' folder and starts the workers. `store` must outlive it.
+  /// Releases the leases of the process before, empties the runs' folder and starts the workers. `store` must outlive
+  /// it.
   Dispatcher(Store& store, Clock clock, DispatcherOptions options);
   Dispatcher(const Dispatcher&) = delete;
   Dispatcher& operator=(const Dispatcher&) = delete;

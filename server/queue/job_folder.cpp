@@ -37,8 +37,8 @@ bool is_artifact_name(std::string_view name) {
          name.substr(name.size() - 4) == ".png";
 }
 
-/// The file's bytes if it is a regular one of at most `limit` bytes. A link is not followed: what a run leaves behind is
-/// not trusted.
+/// The file's bytes if it is a regular one of at most `limit` bytes. A link is not followed: what a run leaves behind
+/// is not trusted.
 std::optional<std::string> read_regular_file(const fs::path& path, std::size_t limit) {
   const int descriptor = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return std::nullopt;
@@ -66,7 +66,8 @@ JobFolder::JobFolder(const fs::path& parent, const std::string& name) {
   path_ = parent / (name + "-" + random);
   for (const fs::path& folder : {path_, path_ / "assets", path_ / "out"}) {
     if (mkdir(folder.c_str(), 0700) != 0) {
-      throw fs::filesystem_error("can't make the run's folder", folder, std::error_code(errno, std::generic_category()));
+      throw fs::filesystem_error("can't make the run's folder", folder,
+                                 std::error_code(errno, std::generic_category()));
     }
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The folder of one run: what the dispatcher lays in it and what it takes out of it. Only its owner may enter (0700); it
-// goes when the object goes.
+// The folder of one run: what the dispatcher lays in it and what it takes out of it. Only its owner may enter (0700);
+// it goes when the object goes.
 
 #include "server/store/store.h"
 

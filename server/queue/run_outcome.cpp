@@ -52,9 +52,10 @@ RunOutcome judge(const ChildEnd& end, const RunLines& lines) {
         return outcome;
       case RunExit::bad_input:
         outcome.final_state = JobState::failed;
-        outcome.problem = !lines.problem.empty()
-                              ? lines.problem
-                              : failure_document("bad_input", "The input can't be simulated" + last_words(end.stderr_tail));
+        outcome.problem =
+            !lines.problem.empty()
+                ? lines.problem
+                : failure_document("bad_input", "The input can't be simulated" + last_words(end.stderr_tail));
         return outcome;
       case RunExit::not_converged:
         outcome.final_state = JobState::failed;

@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::int64_t kApplicationId = 0x546f696c;  // "Toil"
 
-// Steps are only ever appended. Large columns stand last, so that reading a row's state does not walk its overflow pages.
+// Steps are only ever appended. Large columns stand last, so that reading a row's state does not walk its overflow
+// pages.
 constexpr std::array<const char*, 1> kSteps{
     R"sql(
 CREATE TABLE assets (

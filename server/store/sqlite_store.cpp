@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kCheckPatience = 1s;
 // The columns of `read_job`, in its order.
-#define TOILE_JOB_COLUMNS                                                                                      \
+#define TOILE_JOB_COLUMNS                                                                                         \
   "id, state, created_ms, started_ms, finished_ms, attempts, cancel_requested, progress, last_failure, problem, " \
   "seq "
 
@@ -51,8 +51,7 @@ class DirectoryLock {
 
 /// A connection and the lock that whoever uses it holds.
 struct Guarded {
-  Guarded(const std::string& path, SqliteConnection::Mode mode, const std::string& vfs)
-      : connection(path, mode, vfs) {}
+  Guarded(const std::string& path, SqliteConnection::Mode mode, const std::string& vfs) : connection(path, mode, vfs) {}
   std::timed_mutex mutex;
   SqliteConnection connection;
 };
@@ -131,8 +130,8 @@ void end_attempt(SqliteConnection& connection, const JobRecord& job, const std::
 long end_overdue_attempts(SqliteConnection& connection, TimeMs deadline, const std::string& reason, TimeMs now) {
   std::vector<JobRecord> overdue;
   {
-    SqliteStatement row = connection.prepare("SELECT " TOILE_JOB_COLUMNS
-                                             "FROM jobs WHERE state = 'running' AND lease_deadline_ms < ?1");
+    SqliteStatement row =
+        connection.prepare("SELECT " TOILE_JOB_COLUMNS "FROM jobs WHERE state = 'running' AND lease_deadline_ms < ?1");
     row.bind(1, deadline);
     while (row.step()) overdue.push_back(read_job(row));
   }
@@ -201,8 +200,7 @@ class SqliteStore final : public Store {
       if (job.idempotency_key) {
         SqliteStatement row = db.prepare("SELECT id, fingerprint FROM jobs WHERE idempotency_key = ?1");
         if (row.bind(1, *job.idempotency_key).step()) {
-          const auto kind =
-              row.bytes(1) == job.fingerprint ? Submission::Kind::repeated : Submission::Kind::key_reused;
+          const auto kind = row.bytes(1) == job.fingerprint ? Submission::Kind::repeated : Submission::Kind::key_reused;
           return Submission{kind, find_job(db, row.bytes(0)).value()};
         }
       }

@@ -25,11 +25,8 @@ std::optional<JobState> job_state_named(std::string_view name) {
 }
 
 std::string failure_document(std::string_view code, std::string_view detail) {
-  const nlohmann::json document{{"type", "about:blank"},
-                                {"title", "The job failed"},
-                                {"status", 500},
-                                {"code", code},
-                                {"detail", detail}};
+  const nlohmann::json document{
+      {"type", "about:blank"}, {"title", "The job failed"}, {"status", 500}, {"code", code}, {"detail", detail}};
   return document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

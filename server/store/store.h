@@ -80,8 +80,8 @@ struct Submission {
 };
 
 struct JobPage {
-  std::vector<JobRecord> jobs;    ///< newest first
-  std::string next_cursor;  ///< empty on the last page
+  std::vector<JobRecord> jobs;  ///< newest first
+  std::string next_cursor;      ///< empty on the last page
 };
 
 enum class CancelOutcome { unknown_job, cancelled, requested, already_final };
@@ -95,7 +95,8 @@ class Store {
   virtual bool has_asset(const std::string& sha256) = 0;
   virtual std::optional<std::string> asset(const std::string& sha256) = 0;
 
-  /// Queues a job. With an idempotency key that is known: `repeated` when the fingerprint is the same, else `key_reused`.
+  /// Queues a job. With an idempotency key that is known: `repeated` when the fingerprint is the same, else
+  /// `key_reused`.
   virtual Submission submit(const NewJob& job, TimeMs now) = 0;
   virtual std::optional<JobRecord> job(const std::string& id) = 0;
   /// At most `limit` jobs, newest first, in `state` if given, older than `cursor` (the id of the last job of the page

@@ -108,8 +108,8 @@ TEST_P(StoreContract, PublishesResultsAllAtOnce) {
   const JobRecord job = submit(1);
   const Lease lease = store_->lease(2000, kLease).value();
   EXPECT_EQ(store_->artifact(job.id, "report.json"), std::nullopt);
-  EXPECT_TRUE(store_->publish(lease, JobState::succeeded, "", {artifact("report.json", "{}"), artifact("mesh.obj", "v")},
-                              5000));
+  EXPECT_TRUE(store_->publish(lease, JobState::succeeded, "",
+                              {artifact("report.json", "{}"), artifact("mesh.obj", "v")}, 5000));
   reopen();
   const JobRecord done = store_->job(job.id).value();
   EXPECT_EQ(done.state, JobState::succeeded);

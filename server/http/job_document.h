@@ -1,0 +1,17 @@
+#pragma once
+// A job as the API shows it.
+
+#include "server/store/store.h"
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace toile {
+
+/// {id, state, created_at, started_at?, finished_at?, attempts, place_in_queue?, progress?, last_failure?, problem?,
+/// links}; times as in RFC 3339 with milliseconds, UTC.
+nlohmann::json job_document(const JobRecord& job);
+
+std::string rfc3339(TimeMs time);
+
+}  // namespace toile
