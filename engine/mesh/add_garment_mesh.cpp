@@ -38,19 +38,20 @@ void check(const GarmentMesh& shape, const std::string& pointer) {
   const auto outside = [&](int v) { return v < 0 || v >= count; };
   for (const Triangle& triangle : mesh.triangles) {
     if (std::any_of(triangle.begin(), triangle.end(), outside)) {
-      throw InputError(pointer, "unknown_vertex", "a triangle names a vertex that is not there");
+      throw InputError(pointer, "vertex_out_of_range", "a triangle names a vertex that is not there");
     }
   }
   for (std::size_t s = 0; s < shape.seams.size(); ++s) {
     if (outside(shape.seams[s].first) || outside(shape.seams[s].second)) {
-      throw InputError(pointer, "unknown_vertex",
+      throw InputError(pointer, "vertex_out_of_range",
                        "seam pair " + std::to_string(s) + " names a vertex that is not there");
     }
   }
   for (std::size_t s = 0; s < mesh.stitches.size(); ++s) {
     const TriangleMesh::Stitch& stitch = mesh.stitches[s];
     if (outside(stitch.vertex) || outside(stitch.from) || outside(stitch.to)) {
-      throw InputError(pointer, "unknown_vertex", "stitch " + std::to_string(s) + " names a vertex that is not there");
+      throw InputError(pointer, "vertex_out_of_range",
+                       "stitch " + std::to_string(s) + " names a vertex that is not there");
     }
   }
 }
@@ -104,7 +105,7 @@ void add_garment_mesh(const Garment& garment, const GarmentMesh& shape, int garm
     const int a = renumbered[static_cast<std::size_t>(pairs[p].first)];
     const int b = renumbered[static_cast<std::size_t>(pairs[p].second)];
     if (a < 0 || b < 0) {
-      throw InputError(pointer, "unknown_vertex", "a seam names a vertex that is in no triangle");
+      throw InputError(pointer, "vertex_out_of_range", "a seam names a vertex that is in no triangle");
     }
     if (a != b) cloth.seam_pairs.push_back({a + base, b + base, seam + (p >= stitched && stitched > 0 ? 1 : 0)});
   }

@@ -19,20 +19,26 @@ using PerEdge = std::vector<std::vector<T>>;
 
 constexpr double kShortestEdge = 1e-6;  // [m]; shorter is a point drawn twice
 
-bool valid_side(const Pattern& pattern, const PatternStitch::Side& side) {
-  return side.panel >= 0 && side.panel < static_cast<int>(pattern.panels.size()) && side.edge >= 0 &&
-         side.edge < static_cast<int>(pattern.panels[static_cast<std::size_t>(side.panel)].edges.size());
+void check_side(const Pattern& pattern, const PatternStitch::Side& side, const std::string& pointer) {
+  if (side.panel < 0 || side.panel >= static_cast<int>(pattern.panels.size())) {
+    throw InputError(pointer, "stitch_missing_panel", "the stitch names a panel that the pattern does not have");
+  }
+  const Panel& panel = pattern.panels[static_cast<std::size_t>(side.panel)];
+  if (side.edge < 0 || side.edge >= static_cast<int>(panel.edges.size())) {
+    throw InputError(pointer, "stitch_missing_edge",
+                     "the stitch names edge " + std::to_string(side.edge) + " of panel " + panel.name + ", which has " +
+                         std::to_string(panel.edges.size()) + " edges");
+  }
 }
 
 void check_stitches(const Pattern& pattern, std::size_t garment) {
   PerEdge<int> used(pattern.panels.size());
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) used[p].assign(pattern.panels[p].edges.size(), -1);
   for (std::size_t s = 0; s < pattern.stitches.size(); ++s) {
-    for (const PatternStitch::Side& side : {pattern.stitches[s].a, pattern.stitches[s].b}) {
-      if (!valid_side(pattern, side)) {
-        throw InputError(stitch_pointer(garment, s), "unknown_edge",
-                         "the stitch names a panel or an edge that the pattern does not have");
-      }
+    const std::array<PatternStitch::Side, 2> sides = {pattern.stitches[s].a, pattern.stitches[s].b};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const PatternStitch::Side& side = sides[k];
+      check_side(pattern, side, stitch_pointer(garment, s) + "/" + std::to_string(k));
       int& other = used[static_cast<std::size_t>(side.panel)][static_cast<std::size_t>(side.edge)];
       if (other >= 0) {
         throw InputError(stitch_pointer(garment, s), "edge_stitched_twice",
@@ -48,12 +54,12 @@ void check_stitches(const Pattern& pattern, std::size_t garment) {
 void check_loop(const Panel& panel, std::size_t garment) {
   const std::size_t n = panel.edges.size();
   if (n < 2)
-    throw InputError(panel_pointer(garment, panel.name), "panel_too_small", "the panel has fewer than two edges");
+    throw InputError(panel_pointer(garment, panel.name), "too_few_edges", "the panel has fewer than two edges");
   for (std::size_t e = 0; e < n; ++e) {
     const PatternEdge& edge = panel.edges[e];
     const int count = static_cast<int>(panel.vertices.size());
     if (edge.start < 0 || edge.start >= count || edge.end < 0 || edge.end >= count) {
-      throw InputError(edge_pointer(garment, panel.name, e), "unknown_vertex",
+      throw InputError(edge_pointer(garment, panel.name, e), "vertex_out_of_range",
                        "the edge names a vertex that is not there");
     }
     if (edge.end != panel.edges[(e + 1) % n].start) {

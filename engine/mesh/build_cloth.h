@@ -15,7 +15,7 @@ inline constexpr long kMaxClothVertices = 2'000'000;
 /// negative where the loop is clockwise). Garment meshes: as given, flat = UV · uv_unit, stitches made conforming
 /// (conforming_seams.h). Fabric of a panel: Garment::panel_fabrics, else Panel::fabric, else the garment's.
 /// Nothing is sewn: seam_pairs lists what merge_seams() (sewing.h) will unite. Warnings carry a code before a colon
-/// (`implausible_size: …`). Throws InputError (`edge_stitched_twice`, `unknown_panel`, `unknown_edge`,
+/// (`implausible_size: …`). Throws InputError (`edge_stitched_twice`, `stitch_missing_panel`, `stitch_missing_edge`,
 /// `zero_length_edge`, `self_crossing_panel`, `zero_area_panel`, `missing_uv`, `too_many_vertices`, …).
 /// Deterministic.
 Cloth build_cloth(const Scene& scene);
