@@ -8,7 +8,8 @@ namespace toile {
 
 /// Where the tape lies [m]: heights of the horizontal lines above the floor, and the points that patterns are drawn to.
 struct DressFormMeasures {
-  double neck = 0;      ///< base of the neck, where its girth is taken
+  double neck = 0;       ///< where its girth is taken, a little above its base
+  double neck_base = 0;  ///< where the line of the shoulders meets it
   double shoulder = 0;  ///< of the shoulder point
   double underarm = 0;  ///< where arm and torso part
   double bust = 0, underbust = 0, waist = 0, high_hip = 0, hip = 0, crotch = 0, knee = 0;
@@ -19,7 +20,7 @@ struct DressFormMeasures {
 };
 DressFormMeasures dress_form_measures(const DressFormBody& body);
 
-/// Closed, symmetric in x, about 15,000 triangles: torso, neck without head, arm stumps in an A-pose, legs to the
+/// Closed, symmetric in x, about 20,000 triangles: torso, neck without head, arm stumps in an A-pose, legs to the
 /// floor. Girths at bust, waist, hip and neck measured with a closed tape (the convex hull of the horizontal cut; at
 /// the bust and hip of the torso without arms) are those asked for within 1 %. Deterministic.
 TriangleMesh dress_form(const DressFormBody& body);

@@ -30,7 +30,7 @@ GridSettings settings_for(const TriangleMesh& mesh, double edge_length) {
   settings.fine_spacing =
       std::max(std::clamp(edge_length / 3, kFinest, kWidest), std::sqrt(kNodesPerArea * area / kMostFineNodes));
   settings.coarse_spacing =
-      std::max(2 * settings.fine_spacing, std::cbrt((size.array() + 2 * kMargin).prod() / kMostCoarseNodes));
+      std::max(2.5 * settings.fine_spacing, std::cbrt((size.array() + 2 * kMargin).prod() / kMostCoarseNodes));
   return settings;
 }
 

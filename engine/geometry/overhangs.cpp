@@ -14,7 +14,9 @@ namespace {
 constexpr double kFootHeight = 0.05;   ///< [m] above the lowest point in which paths begin
 constexpr double kLeastHeight = 0.10;  ///< [m] of a part that is cut off
 constexpr int kGroupReach = 2;         ///< nodes between which hanging pieces are one part
-constexpr int kOutwardLayers = 3;      ///< nodes outside that take the label of the inside beside them
+/// Nodes outside that take the label of the inside beside them: level with it, to keep the cut a plane, and around it,
+/// as far as a finger too thin to hold a node.
+constexpr int kLevelLayers = 3, kAroundLayers = 10;
 
 enum Label : char { unknown, standing, hanging };
 
@@ -128,9 +130,8 @@ void spread_outwards(Labels& labels) {
   for_each_node(labels.lattice, [&](const NodeIndex& n) {
     if (labels[n] != unknown) front.push_back(n);
   });
-  const std::vector<NodeIndex> inside = front;
-  const auto spread = [&](std::span<const NodeIndex> steps) {
-    for (int layer = 0; layer < kOutwardLayers; ++layer) {
+  const auto spread = [&](std::span<const NodeIndex> steps, int layers) {
+    for (int layer = 0; layer < layers; ++layer) {
       next.clear();
       for (const NodeIndex& n : front) {
         for (const NodeIndex& step : steps) {
@@ -143,9 +144,12 @@ void spread_outwards(Labels& labels) {
       front.swap(next);
     }
   };
-  spread(kSideways);
-  front = inside;
-  spread(kAround);
+  spread(kSideways, kLevelLayers);
+  front.clear();
+  for_each_node(labels.lattice, [&](const NodeIndex& n) {
+    if (labels[n] != unknown) front.push_back(n);
+  });
+  spread(kAround, kAroundLayers);
 }
 
 void append(SoupSolid& solid, const Vec3& a, const Vec3& b, const Vec3& c) {
