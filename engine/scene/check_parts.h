@@ -1,0 +1,23 @@
+#pragma once
+// The parts of the scene check, one a concern; each appends what it finds. scene/check.h puts them together.
+
+#include "engine/scene/problem.h"
+#include "engine/scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace toile {
+
+/// Appends the problems of a pattern's panels and stitches; returns an estimate of the vertices it will have.
+double check_pattern(const Pattern& pattern, double edge_length, std::size_t garment, std::vector<Problem>& problems);
+
+void check_garment_mesh(const GarmentMesh& shape, const std::string& pointer, std::vector<Problem>& problems);
+
+void check_fabric(const Fabric& fabric, const std::string& pointer, std::vector<Problem>& problems);
+
+void check_body(const Body& body, std::vector<Problem>& problems);
+
+void check_pins(const Garment& garment, bool has_body, const std::string& pointer, std::vector<Problem>& problems);
+
+}  // namespace toile
