@@ -89,9 +89,10 @@ Place locate(const std::vector<std::string>& context, const json& document, cons
   return place;
 }
 
-std::string quoted_in(const std::string& text) {
-  const std::size_t start = text.find('\''), end = text.rfind('\'');
-  return start == end ? "" : text.substr(start + 1, end - start - 1);
+/// The name that stands in quotes after `before` at the end of a message.
+std::string name_after(const std::string& text, std::string_view before) {
+  const std::size_t start = text.find(before) + before.size(), end = text.rfind('\'');
+  return text.substr(start, end - start);
 }
 
 bool starts_with(const std::string& text, std::string_view start) { return text.compare(0, start.size(), start) == 0; }
@@ -141,11 +142,11 @@ std::string keys_of(const json& value) {
 
 Problem translate(const std::string& text, Place place) {
   if (starts_with(text, "Object contains a property")) {
-    const std::string key = quoted_in(text);
+    const std::string key = name_after(text, "constraints: '");
     return {child(std::move(place.pointer), key), "unknown_key", "The key \"" + key + "\" is not known here."};
   }
   if (starts_with(text, "Missing required property")) {
-    const std::string key = quoted_in(text);
+    const std::string key = name_after(text, "property '");
     return {std::move(place.pointer), "missing_key", "The key \"" + key + "\" is missing."};
   }
   if (text.find("'type' constraint") != std::string::npos) {

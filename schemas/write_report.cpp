@@ -1,0 +1,68 @@
+#include "schemas/write_report.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace toile {
+
+namespace {
+
+using nlohmann::json;
+
+json stretch_percent(const StretchStatistics& ratio) {
+  return {{"mean", 100 * ratio.mean}, {"p99", 100 * ratio.p99}, {"max", 100 * ratio.max}};
+}
+
+json times(const StageTimes& time) {
+  return {{"assemble", time.assemble},
+          {"drape", time.drape},
+          {"render", time.render},
+          {"total", time.total},
+          {"stages",
+           {{"collisions", time.collisions},
+            {"derivatives", time.derivatives},
+            {"assembly", time.assembly},
+            {"linear_solve", time.linear_solve},
+            {"line_search", time.line_search},
+            {"other", time.other}}}};
+}
+
+void require_finite(const json& document) {
+  const json leaves = document.flatten();
+  for (const auto& [pointer, leaf] : leaves.items()) {
+    if (leaf.is_number_float() && !std::isfinite(leaf.get<double>())) {
+      throw std::domain_error("the report's " + pointer + " is not finite");
+    }
+  }
+}
+
+}  // namespace
+
+json write_report(const Report& report) {
+  json document = {{"status", report.status},
+                   {"stop_reason", report.stop_reason},
+                   {"vertices", report.vertices},
+                   {"triangles", report.triangles},
+                   {"time_s", times(report.time)},
+                   {"simulated_time_s", report.simulated_time},
+                   {"steps", report.steps},
+                   {"newton_iterations", report.newton_iterations},
+                   {"cg_iterations", report.cg_iterations},
+                   {"splits", report.splits},
+                   {"limited_vertices", report.limited_vertices},
+                   {"stretch_percent",
+                    {{"warp", stretch_percent(report.stretch_warp)}, {"weft", stretch_percent(report.stretch_weft)}}},
+                   {"force_residual", {{"rms", report.residual_rms}, {"max", report.residual_max}}},
+                   {"penetration_mm", {{"max", 1e3 * report.penetration_max}}},
+                   {"self_intersections", report.self_intersections},
+                   {"seam_gap_mm", {{"max", 1e3 * report.seam_gap_max}}},
+                   {"kinetic_energy_j", report.kinetic_energy},
+                   {"result_sha256", report.result_sha256},
+                   {"warnings", report.warnings},
+                   {"version", TOILE_VERSION}};
+  require_finite(document);
+  return document;
+}
+
+}  // namespace toile
