@@ -25,10 +25,11 @@ struct CgOutcome {
   double relative_residual = 0;  ///< ‖A x − b‖ / ‖b‖ by recurrence
 };
 
-/// Solves (fixed + dynamic) x = b for symmetric positive definite matrices from x = 0, to ‖A x − b‖ < tolerance ‖b‖ or
-/// `most_iterations`. Vectors are single precision, dot products are summed in double over fixed ranges. Stops early
-/// where rounding makes a direction's curvature not positive: x is then the best so far. Keeps its work vectors between
-/// calls; one call at a time.
+/// Solves (fixed + dynamic) x = b for symmetric positive definite matrices, to ‖A x − b‖ < tolerance ‖b‖ or
+/// `most_iterations`. On entry x is a guess, used if its residual is below ‖b‖, else zero is; empty means zero. Vectors
+/// are single precision, dot products are summed in double over fixed ranges. Stops early where rounding makes a
+/// direction's curvature not positive: x is then the best so far. Keeps its work vectors between calls; one call at a
+/// time.
 class ConjugateGradient {
  public:
   CgOutcome solve(const BlockMatrix& fixed, ContactMatrix& dynamic, const BlockJacobi& preconditioner,

@@ -40,6 +40,11 @@ Positions permuted(const Positions& values, const std::vector<int>& from) {
   return out;
 }
 
+NodeVector scaled(NodeVector values, double factor) {
+  for (Float4& f : values) f = {float(factor) * f.x, float(factor) * f.y, float(factor) * f.z, 0};
+  return values;
+}
+
 /// What stays fixed while a step is solved.
 struct StepProblem {
   const Positions* v0;
@@ -128,6 +133,7 @@ struct BackwardEuler::Implementation {
   ConjugateGradient conjugate_gradient;
   Positions force, b;
   NodeVector right_hand_side, delta_v;
+  NodeVector last_acceleration;  ///< (v − v₀)/h of the last accepted step [m/s²]; empty when there is none
 };
 
 BackwardEuler::BackwardEuler(const Cloth& sewn, const SolverOptions& options)
@@ -165,6 +171,8 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
     outcome.residual = r_n;
     if (!std::isfinite(r_n)) return outcome;
     ++outcome.newton_iterations;
+    s.delta_v.clear();
+    if (i_n == 0) s.delta_v = scaled(s.last_acceleration, h);
     {
       Stopwatch watch(times.linear_solve);
       outcome.cg_iterations += s.conjugate_gradient
@@ -196,8 +204,12 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
     outcome.accepted = diverged ? r_n < at_rest : r_n < s.options.newton_tolerance;
     if (diverged || outcome.accepted) break;
   }
+  s.last_acceleration.clear();
   if (!outcome.accepted) return outcome;
+  s.last_acceleration.resize(nodes);
   for (int i = 0; i < nodes; ++i) {
+    const Vec3 a = (v[i] - v0[i]) / h;
+    s.last_acceleration[i] = {float(a.x()), float(a.y()), float(a.z()), 0};
     state.x[order[i]] = x[i];
     state.v[order[i]] = v[i];
   }

@@ -54,12 +54,13 @@ class BackwardEuler {
   BackwardEuler(BackwardEuler&&) noexcept;
   BackwardEuler& operator=(BackwardEuler&&) noexcept;
 
-  /// One step of length h [s] with the fabrics' stiffness (and its damping) times `stiffness_factor`. Starts from v₀,
-  /// as the seed does. Accepted, it sets `state` and drags the contacts' friction anchors along; otherwise both stay
-  /// untouched and the caller splits the time. It is accepted when an iterate's residual is below
-  /// options.newton_tolerance. An iteration that can't lower the residual is divergence, unless the residual is already
-  /// below the tolerance and below a hundredth of a step's weight (perfect rest can't be improved, and is not
-  /// divergence).
+  /// One step of length h [s] with the fabrics' stiffness (and its damping) times `stiffness_factor`. Newton's method
+  /// starts from v₀, as the seed does; the first linear solve starts from the last accepted step's acceleration, which
+  /// more than halves its iterations and leaves its tolerance as it is (so the bits of a step depend on the step
+  /// before). Accepted, it sets `state` and drags the contacts' friction anchors along; otherwise both stay untouched
+  /// and the caller splits the time. It is accepted when an iterate's residual is below options.newton_tolerance. An
+  /// iteration that can't lower the residual is divergence, unless the residual is already below the tolerance and
+  /// below a hundredth of a step's weight (perfect rest can't be improved, and is not divergence).
   StepOutcome step(State& state, double h, double stiffness_factor, std::vector<Contact>& contacts,
                    const Kinematic& kinematic, StepTimes& times);
 

@@ -51,7 +51,7 @@ Mat2 strain_rate(const Mat32& f, const Mat32& df) {
 Mat2 tensile_part(const Mat2& p) {
   const double mean = 0.5 * (p(0, 0) + p(1, 1));
   const double half = 0.5 * (p(0, 0) - p(1, 1));
-  const double radius = std::hypot(half, p(0, 1));
+  const double radius = std::sqrt(half * half + p(0, 1) * p(0, 1));
   if (mean - radius >= 0) return p;
   if (mean + radius <= 0) return Mat2::Zero();
   // One tensile direction: λ n nᵀ with n nᵀ = ½ (I + deviator / radius).

@@ -175,16 +175,36 @@ TEST(ConjugateGradient, StopsAtItsLimitsAndOnZero) {
   EXPECT_EQ(as_vector(x).norm(), 0);
 }
 
+TEST(ConjugateGradient, AGoodGuessSavesIterationsAndABadOneIsForgotten) {
+  RandomSystem s(8);
+  ConjugateGradient cg;
+  const auto solve = [&](NodeVector x, double tolerance) {
+    return std::pair(cg.solve(s.matrix, s.contact, s.preconditioner, s.right, tolerance, 2000, x), x);
+  };
+  const auto [cold, solution] = solve({}, 1e-5);
+  NodeVector near = solution, far = solution;
+  for (Float4& f : near) f.x *= 1.001f;
+  for (Float4& f : far) f = {100 * f.x + 50, -80 * f.y, 3, 0};
+  const auto [warm, warm_solution] = solve(near, 1e-5);
+  EXPECT_LT(warm.iterations, cold.iterations);
+  EXPECT_LT((as_vector(warm_solution) - as_vector(solution)).norm(), 1e-3 * as_vector(solution).norm());
+  const auto [forgotten, same] = solve(far, 1e-5);
+  EXPECT_EQ(forgotten.iterations, cold.iterations);
+  EXPECT_EQ(as_vector(same), as_vector(solution));
+  EXPECT_EQ(solve(solution, 1e-4).first.iterations, 0);
+}
+
 TEST(ConjugateGradient, SameBitsOnAnyNumberOfThreads) {
   RandomSystem s(60, 5000);
-  NodeVector reference, x;
   ConjugateGradient cg;
+  NodeVector reference;
   {
     ThreadLimit one(1);
     cg.solve(s.matrix, s.contact, s.preconditioner, s.right, 1e-5, 200, reference);
   }
   for (int threads : {2, 3, 4}) {
     ThreadLimit limit(threads);
+    NodeVector x;
     cg.solve(s.matrix, s.contact, s.preconditioner, s.right, 1e-5, 200, x);
     EXPECT_EQ(std::memcmp(x.data(), reference.data(), x.size() * sizeof(Float4)), 0) << threads;
   }
