@@ -105,11 +105,11 @@ HttpResponse answer(const httplib::Request& request, const Body& body) {
   } catch (const HttpProblem& problem) {
     return problem_response(problem);
   } catch (const InputError& error) {
-    return problem_response(problem_of(error));
+    return problem_response(error);
   } catch (const StoreError& error) {
     spdlog::error("{} {}: {}", request.method, request.path, error.what());
     if (error.kind() == StoreError::Kind::full) {
-      return problem_response({507, "store_full", "The server has no room left."});
+      return problem_response(HttpProblem(507, "store_full", "The server has no room left."));
     }
     return problem_response(
         HttpProblem(503, "store_unavailable", "The store does not answer.").with_header("Retry-After", "5"));
@@ -118,7 +118,7 @@ HttpResponse answer(const httplib::Request& request, const Body& body) {
   } catch (...) {
     spdlog::error("{} {}: unknown exception", request.method, request.path);
   }
-  return problem_response({500, "internal_error", "Something went wrong in the server; its log says what."});
+  return problem_response(HttpProblem(500, "internal_error", "Something went wrong in the server; its log says what."));
 }
 
 HttpRequest plain_request(const httplib::Request& source) {
@@ -231,7 +231,7 @@ HttpServer::HttpServer(Router router, HttpServerOptions options) : library_(std:
   });
   server.set_error_handler([](const httplib::Request&, httplib::Response& response) {
     if (!response.body.empty()) return;  // a handler has said it
-    write_to(response, problem_response({response.status, "bad_request", "The request could not be read."}));
+    write_to(response, problem_response(HttpProblem(response.status, "bad_request", "The request could not be read.")));
   });
 }
 

@@ -26,12 +26,10 @@ nlohmann::json job_document(const JobRecord& job) {
                           {"links", {{"self", self}}}};
   if (job.started) document["started_at"] = rfc3339(*job.started);
   if (job.finished) document["finished_at"] = rfc3339(*job.finished);
-  if (job.state == JobState::queued) document["place_in_queue"] = job.place_in_queue;
-  if (job.cancel_requested && !is_final(job.state)) document["cancel_requested"] = true;
+  if (job.state == JobState::queued) document["queue_position"] = job.place_in_queue - 1;
   // Both texts were written by this program from parsed documents.
   if (!job.progress.empty()) document["progress"] = nlohmann::json::parse(job.progress);
-  if (!job.problem.empty()) document["problem"] = nlohmann::json::parse(job.problem);
-  if (!job.last_failure.empty()) document["last_failure"] = job.last_failure;
+  if (!job.problem.empty()) document["error"] = nlohmann::json::parse(job.problem);
   if (job.state == JobState::succeeded) {
     for (const auto& [name, path] : {std::pair{"report", "/report"}, std::pair{"mesh_obj", "/mesh.obj"},
                                      std::pair{"mesh_glb", "/mesh.glb"}, std::pair{"preview", "/preview.png"}}) {

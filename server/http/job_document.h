@@ -8,8 +8,7 @@
 
 namespace toile {
 
-/// {id, state, created_at, started_at?, finished_at?, attempts, place_in_queue?, progress?, last_failure?, problem?,
-/// links}; times as in RFC 3339 with milliseconds, UTC.
+/// As job.schema.json has it; times as in RFC 3339 with milliseconds, UTC.
 nlohmann::json job_document(const JobRecord& job);
 
 std::string rfc3339(TimeMs time);

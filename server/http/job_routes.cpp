@@ -40,10 +40,25 @@ std::string pointer_to_asset(const json& node, const std::string& name, const st
   return {};
 }
 
+/// Parses {"scene": {…}}; pointers of what the parser throws are made to point into the scene.
+json parse_request(const std::string& body) {
+  try {
+    return parse_json(body, {.bytes = kSceneLimit, .depth = JsonLimits{}.depth + 1});
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      constexpr std::string_view kScene = "/scene";
+      if (problem.pointer == kScene || problem.pointer.rfind("/scene/", 0) == 0)
+        problem.pointer.erase(0, kScene.size());
+    }
+    throw InputError(std::move(problems));
+  }
+}
+
 /// The scene of {"scene": {…}}, checked as far as it can be without another document. Throws InputError with pointers
 /// into the scene, as a run's problems have them.
 json checked_scene(const std::string& body, Store& store) {
-  json document = parse_json(body, {.bytes = kSceneLimit, .depth = JsonLimits{}.depth + 1});
+  json document = parse_request(body);
   if (!document.is_object() || !document.contains("scene")) {
     throw InputError("", "missing_key", "The body must be an object with the key \"scene\".");
   }

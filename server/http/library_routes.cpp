@@ -13,7 +13,7 @@ namespace {
 /// Part of the program: changes only with it, so a client may keep it but should ask.
 HttpResponse document(const HttpRequest& request, std::string body, const std::string& content_type) {
   HttpResponse response;
-  const std::string etag = "\"" + sha256_hex(body) + "\"";
+  const std::string digest = sha256_hex(body), etag = "\"" + digest + "\"";
   response.headers = {{"ETag", etag}, {"Cache-Control", "no-cache"}};
   if (request.header("if-none-match") == etag) {
     response.status = 304;

@@ -22,10 +22,6 @@ struct Turn {
 
 }  // namespace
 
-std::string preview_name(const std::string& view, const std::string& overlay) {
-  return "preview-" + view + (overlay == "fabric" ? "" : "-" + overlay) + ".png";
-}
-
 PreviewRenderer::PreviewRenderer(Store& store, PreviewOptions options)
     : store_(store), options_(std::move(options)), turns_(kPreviewsAtOnce) {
   options_.runner = std::filesystem::absolute(options_.runner).string();

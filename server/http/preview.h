@@ -13,9 +13,6 @@
 
 namespace toile {
 
-/// File name of a picture: preview-front.png, preview-front-stretch.png.
-std::string preview_name(const std::string& view, const std::string& overlay);
-
 struct PreviewOptions {
   std::string runner;            ///< executable that understands `render --job DIR --view V --overlay O --out FILE`
   std::filesystem::path folder;  ///< parent of the drawings' folders

@@ -1,5 +1,6 @@
 #include "server/http/problem_response.h"
 #include "server/http/service.h"
+#include "server/queue/artifact.h"
 #include "server/store/job_id.h"
 
 #include <algorithm>

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -28,13 +27,6 @@ void write_file(const fs::path& path, std::string_view bytes) {
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
   if (!file) throw std::runtime_error("can't write " + path.filename().string());
-}
-
-bool is_artifact_name(std::string_view name) {
-  constexpr std::array<std::string_view, 4> kNames{"report.json", "mesh.obj", "mesh.glb", "drape.state"};
-  if (std::find(kNames.begin(), kNames.end(), name) != kNames.end()) return true;
-  return name.size() < 64 && name.substr(0, 8) == "preview-" && name.size() > 12 &&
-         name.substr(name.size() - 4) == ".png";
 }
 
 /// The file's bytes if it is a regular one of at most `limit` bytes. A link is not followed: what a run leaves behind
@@ -105,17 +97,6 @@ std::vector<Artifact> collect_artifacts(const fs::path& out) {
     artifacts.push_back(make_artifact(name, std::move(*bytes)));
   }
   return artifacts;
-}
-
-Artifact make_artifact(const std::string& name, std::string bytes) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kMediaTypes{
-      {{".json", "application/json"}, {".obj", "model/obj"}, {".glb", "model/gltf-binary"}, {".png", "image/png"}}};
-  std::string media_type = "application/octet-stream";
-  for (const auto& [end, type] : kMediaTypes) {
-    if (std::string_view(name).substr(name.size() - std::min(name.size(), end.size())) == end) media_type = type;
-  }
-  std::string digest = sha256_hex(bytes);
-  return {name, std::move(media_type), std::move(digest), std::move(bytes)};
 }
 
 }  // namespace toile

@@ -2,6 +2,7 @@
 // The folder of one run: what the dispatcher lays in it and what it takes out of it. Only its owner may enter (0700);
 // it goes when the object goes.
 
+#include "server/queue/artifact.h"
 #include "server/store/store.h"
 
 #include <filesystem>
@@ -34,9 +35,6 @@ void lay_inputs(const JobFolder& folder, const std::string& scene,
 /// The artifacts in the run's output folder: regular files whose names the service knows (report.json, mesh.obj,
 /// mesh.glb, drape.state, preview-*.png), of kArtifactLimit bytes together at most; the rest is passed over.
 std::vector<Artifact> collect_artifacts(const std::filesystem::path& out);
-
-/// An artifact from a name and bytes: media type by the name's end, digest.
-Artifact make_artifact(const std::string& name, std::string bytes);
 
 inline constexpr std::size_t kArtifactLimit = 512U << 20;  ///< bytes of one job
 

@@ -41,7 +41,7 @@ RunOutcome judge(const ChildEnd& end, const RunLines& lines) {
   }
   if (end.how == ChildEnd::How::timed_out) {
     outcome.final_state = JobState::failed;
-    outcome.problem = failure_document("run_too_long", "The run passed the wall-clock limit of this server.");
+    outcome.problem = failure_document(422, "run_too_long", "The run passed the wall-clock limit of this server.");
     return outcome;
   }
   if (end.how == ChildEnd::How::exited) {
@@ -55,14 +55,14 @@ RunOutcome judge(const ChildEnd& end, const RunLines& lines) {
         outcome.problem =
             !lines.problem.empty()
                 ? lines.problem
-                : failure_document("bad_input", "The input can't be simulated" + last_words(end.stderr_tail));
+                : failure_document(422, "bad_input", "The input can't be simulated" + last_words(end.stderr_tail));
         return outcome;
       case RunExit::not_converged:
         outcome.final_state = JobState::failed;
         outcome.keeps_artifacts = true;
         outcome.problem = !lines.problem.empty()
                               ? lines.problem
-                              : failure_document("not_converged",
+                              : failure_document(422, "not_converged",
                                                  "The drape did not come to rest; the report tells what it is worth.");
         return outcome;
       case RunExit::cancelled:  // by someone else than the dispatcher

@@ -111,8 +111,9 @@ void end_attempt(SqliteConnection& connection, const JobRecord& job, const std::
     finish(connection, job.id, JobState::cancelled, "", now);
   } else if (job.attempts >= kMaxAttempts) {
     finish(connection, job.id, JobState::failed,
-           failure_document("run_died", "The run died " + std::to_string(job.attempts) +
-                                            " times, the last time because " + reason + "."),
+           failure_document(
+               500, "run_died",
+               "The run died " + std::to_string(job.attempts) + " times, the last time because " + reason + "."),
            now);
   } else {
     connection
@@ -260,7 +261,7 @@ class SqliteStore final : public Store {
       end_overdue_attempts(db, now, "its lease ran out", now);
       SqliteStatement row = db.prepare(
           "UPDATE jobs SET state = 'running', attempts = attempts + 1, lease_token = lease_token + 1, "
-          "lease_deadline_ms = ?2, started_ms = coalesce(started_ms, ?1), progress = '' "
+          "lease_deadline_ms = ?2, started_ms = ?1, progress = '' "
           "WHERE seq = (SELECT seq FROM jobs WHERE state = 'queued' AND not_before_ms <= ?1 ORDER BY seq LIMIT 1) "
           "RETURNING id, attempts, lease_token, scene");
       if (!row.bind(1, now).bind(2, now + duration_ms).step()) return std::nullopt;

@@ -24,9 +24,13 @@ std::optional<JobState> job_state_named(std::string_view name) {
   return std::nullopt;
 }
 
-std::string failure_document(std::string_view code, std::string_view detail) {
-  const nlohmann::json document{
-      {"type", "about:blank"}, {"title", "The job failed"}, {"status", 500}, {"code", code}, {"detail", detail}};
+std::string failure_document(int status, std::string_view code, std::string_view detail) {
+  nlohmann::json document;
+  document["type"] = "about:blank";
+  document["title"] = "The job failed";
+  document["status"] = status;
+  document["detail"] = detail;
+  document["errors"] = nlohmann::json::array({{{"pointer", ""}, {"code", code}, {"detail", detail}}});
   return document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -47,7 +47,7 @@ struct JobRecord {
   std::string id;
   JobState state = JobState::queued;
   TimeMs created = 0;
-  std::optional<TimeMs> started, finished;  ///< of the first attempt's start; of the last one's end
+  std::optional<TimeMs> started, finished;  ///< start of the latest attempt; end of the job
   int attempts = 0;                         ///< begun so far
   bool cancel_requested = false;
   long place_in_queue = 0;   ///< 1 is next; 0 when not queued
@@ -135,7 +135,7 @@ class Store {
 /// Attempts at one job, at most.
 inline constexpr int kMaxAttempts = 3;
 
-/// The problem document (RFC 9457) of a job that failed outside the engine, as JSON text.
-std::string failure_document(std::string_view code, std::string_view detail);
+/// The problem document (schemas/problem.schema.json) of a job that failed outside the engine, as JSON text.
+std::string failure_document(int status, std::string_view code, std::string_view detail);
 
 }  // namespace toile
