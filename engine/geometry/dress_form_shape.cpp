@@ -65,7 +65,7 @@ DressFormShape::DressFormShape(const DressFormBody& body, const GirthScale& scal
   };
   const double neck_width = half_width_of(body.neck * scale.neck, 1.0);
   const double shoulder = lines_.shoulder_half_width;
-  const std::vector<Station> stations{{lines_.crotch, 0.93 * hip, 0.74, -0.005},
+  const std::vector<Station> stations{{lines_.crotch, 0.90 * hip, 0.74, -0.005},
                                       {lines_.hip, 0.98 * hip, 0.70, -0.006},
                                       {lines_.high_hip, waist + 0.66 * (0.97 * hip - waist), 0.71, -0.004},
                                       {lines_.waist, waist, 0.72, 0.004},
@@ -85,11 +85,13 @@ DressFormShape::DressFormShape(const DressFormBody& body, const GirthScale& scal
     depth.push_back(half_depth);
     middle.push_back(z);
   };
-  // The slope of the shoulders, about 20° from the shoulder point to the neck, then the neck.
-  const double slope = lines_.neck_base - lines_.shoulder;
-  add(lines_.shoulder - 0.012 * h, 0.88 * shoulder, 0.055 * h * bust / 0.92, -0.016);
-  add(lines_.shoulder + 0.05 * slope, 0.68 * shoulder, 0.045 * h, -0.020);
-  add(lines_.shoulder + 0.60 * slope, 0.5 * (0.55 * shoulder + neck_width), 0.040 * h, -0.020);
+  // The line of the shoulders, about 20° from the shoulder point to the neck: the ridge of the yoke follows it.
+  const double rise = lines_.neck_base - lines_.shoulder;
+  const auto along = [&](double t) { return shoulder + t * (1.10 * neck_width - shoulder); };
+  add(lines_.shoulder - 0.7 * rise, 0.87 * shoulder, 0.048 * h * bust / 0.92, -0.015);
+  add(lines_.shoulder + 0.1 * rise, 0.83 * along(0.1), 0.040 * h, -0.018);
+  add(lines_.shoulder + 0.45 * rise, 0.98 * along(0.45), 0.034 * h, -0.020);
+  add(lines_.shoulder + 0.75 * rise, along(0.75), 0.034 * h, -0.018);
   add(lines_.neck_base, 1.10 * neck_width, 1.10 * neck_width, -0.014);
   add(lines_.neck, neck_width, neck_width, -0.008);
   add(lines_.neck + 0.02 * h, 0.98 * neck_width, 0.98 * neck_width, -0.002);
@@ -97,9 +99,9 @@ DressFormShape::DressFormShape(const DressFormBody& body, const GirthScale& scal
   half_depth_ = StationCurve(at, depth);
   middle_z_ = StationCurve(at, middle);
 
-  bust_radius_ = 0.062 * body.bust * scale.bust / 0.92 * std::sqrt(scale.bust);
-  bust_x_ = 0.082 * bust / 0.92;
-  bust_z_ = middle_z_(lines_.bust) + 0.70 * half_depth_(lines_.bust);
+  bust_radius_ = 0.070 * bust / 0.92;
+  bust_x_ = 0.075 * bust / 0.92;
+  bust_z_ = middle_z_(lines_.bust) + 0.58 * half_depth_(lines_.bust);
   seat_radius_ = 0.085 * hip / 0.98;
   seat_x_ = 0.068 * hip / 0.98;
   seat_z_ = middle_z_(lines_.hip) - 0.42 * half_depth_(lines_.hip);
@@ -131,7 +133,7 @@ double DressFormShape::torso(const Vec3& p) const {
   const Vec3 mirrored(std::abs(p.x()), p.y(), p.z());
   const Vec3 bust_center(bust_x_, lines_.bust + 0.1 * bust_radius_, bust_z_);
   const Vec3 seat_center(seat_x_, lines_.hip - 0.008 * height_, seat_z_);
-  distance = smooth_union(distance, ellipsoid(mirrored - bust_center, bust_radius_ * Vec3(1.0, 1.1, 1.0)), 0.035);
+  distance = smooth_union(distance, ellipsoid(mirrored - bust_center, bust_radius_ * Vec3(1.05, 1.2, 1.0)), 0.07);
   return smooth_union(distance, ellipsoid(mirrored - seat_center, seat_radius_ * Vec3(0.95, 1.15, 0.95)), 0.06);
 }
 
@@ -139,19 +141,19 @@ double DressFormShape::leg(const Vec3& p) const {
   const double y = std::clamp(p.y(), 0.0, lines_.hip);
   const double dx = std::abs(p.x()) - leg_x_(y), dz = p.z() - leg_z_(y);
   const double around = std::hypot(dx, dz) - leg_radius_(y);
-  return smooth_intersection(smooth_intersection(around, p.y() - lines_.hip, 0.05), -p.y(), 0.01);
+  return smooth_intersection(smooth_intersection(around, p.y() - lines_.hip, 0.05), -p.y(), 0.02);
 }
 
 double DressFormShape::arm(const Vec3& p) const {
   const Vec3 direction(std::cos(lines_.arm_angle), -std::sin(lines_.arm_angle), 0);
   const double r = lines_.arm_radius;
-  const Vec3 start(lines_.shoulder_half_width - 0.75 * r, lines_.shoulder - r, -0.014);
+  const Vec3 start(lines_.shoulder_half_width - 0.75 * r, lines_.shoulder - 0.95 * r, -0.016);
   const Vec3 end = start + lines_.arm_length * direction;
   const PointSegment near = point_segment(Vec3(std::abs(p.x()), p.y(), p.z()), start, end);
   return std::sqrt(near.squared_distance) - r * (1 - 0.2 * near.t);
 }
 
-double DressFormShape::trunk(const Vec3& p) const { return smooth_union(torso(p), leg(p), 0.04); }
+double DressFormShape::trunk(const Vec3& p) const { return smooth_union(torso(p), leg(p), 0.06); }
 
 double DressFormShape::operator()(const Vec3& p) const { return smooth_union(trunk(p), arm(p), 0.05); }
 
