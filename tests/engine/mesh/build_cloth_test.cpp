@@ -4,6 +4,7 @@
 #include "engine/mesh/panel_outline.h"
 #include "engine/mesh/sewing.h"
 #include "engine/mesh/topology.h"
+#include "engine/scene/check.h"
 #include "engine/scene/problem.h"
 #include "tests/engine/mesh/real_patterns.h"
 
@@ -122,6 +123,12 @@ TEST_P(RealCloth, SeamsJoinEqualFractionsOfBothEdges) {
     for (std::size_t i = 0; i < a.size(); ++i) {
       EXPECT_TRUE(a[i] == b[i] || pairs.count({a[i], b[i]})) << cloth.seam_names[s];
     }
+  }
+}
+
+TEST_P(RealCloth, PassesTheSceneCheck) {
+  for (const Problem& problem : scene_problems(scene_of(real_pattern(GetParam()), 0.015))) {
+    EXPECT_EQ(problem.code, "fabric_value") << problem.pointer << ": " << problem.detail;  // the scene here has none
   }
 }
 
