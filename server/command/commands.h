@@ -14,7 +14,7 @@ int run_drape(const DrapeArguments& arguments);
 
 struct RenderArguments {
   std::string job, view = "front", overlay = "fabric", out;
-  int width = 1024, height = 1024;  ///< pixels
+  int width = 0, height = 0;  ///< pixels; 0: as the scene had it
 };
 int run_render(const RenderArguments& arguments);
 

@@ -1,0 +1,120 @@
+#include "engine/drape.h"
+
+#include "engine/mesh/gltf.h"
+#include "engine/mesh/obj.h"
+#include "engine/scene/problem.h"
+#include "schemas/problem.h"
+#include "schemas/read_scene.h"
+#include "schemas/write_report.h"
+#include "server/command/commands.h"
+#include "server/command/cost_table.h"
+#include "server/command/drape_state.h"
+#include "server/command/pictures.h"
+#include "server/command/result_files.h"
+#include "server/command/run_monitor.h"
+#include "server/queue/artifact.h"
+#include "server/queue/run_outcome.h"
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace toile {
+namespace {
+
+namespace fs = std::filesystem;
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr std::size_t kSceneFileLimit = 64U << 20;  // bytes
+
+int status(RunExit exit) { return static_cast<int>(exit); }
+
+double seconds_since(SteadyClock::time_point start) {
+  return std::chrono::duration<double>(SteadyClock::now() - start).count();
+}
+
+Job read_job(const DrapeArguments& arguments) {
+  const nlohmann::json document = parse_json(read_input_file(arguments.scene, kSceneFileLimit));
+  validate_scene_document(document);
+  Job job = read_scene(document, file_resolver(fs::path(arguments.scene).parent_path()));
+  if (arguments.threads > 0) job.scene.solver.threads = arguments.threads;
+  return job;
+}
+
+/// Draws what was asked for; false when the run was asked to stop meanwhile.
+bool draw_pictures(const Drape& drape, const RenderRequest& request, const fs::path& out, RunMonitor& monitor) {
+  const double pictures = static_cast<double>(request.views.size() * request.overlays.size());
+  constexpr double kDraped = 0.97;  // share of a run that is over when pictures begin
+  double drawn = 0;
+  for (const std::string& view : request.views) {
+    for (const std::string& overlay : request.overlays) {
+      Progress progress;
+      progress.stage = "render";
+      progress.fraction_done = kDraped + (1 - kDraped) * drawn++ / pictures;
+      if (!monitor.report(progress)) return false;
+      write_atomically(out / preview_name(view, overlay), draw(drape, view, overlay, request.width, request.height));
+    }
+  }
+  return true;
+}
+
+std::string not_converged_document(const Report& report) {
+  return failure_document(422, "not_converged",
+                          "The drape did not come to rest (" + report.stop_reason + " after " +
+                              std::to_string(report.steps) + " steps); its report and mesh tell how far it came.");
+}
+
+int drape_to_files(const DrapeArguments& arguments, RunMonitor& monitor) {
+  const auto started = SteadyClock::now();
+  const fs::path out = arguments.out;
+  fs::create_directories(out);
+  remove_old_results(out);
+
+  const Job job = read_job(arguments);
+  Drape result = drape(job.scene, monitor);
+  Report& report = result.report;
+  report.warnings.insert(report.warnings.begin(), job.warnings.begin(), job.warnings.end());
+  const bool converged = report.status == "converged";
+
+  const TriangleMesh mesh = mesh_of(result.cloth);
+  write_atomically(out / kObjName, write_obj(mesh));
+  write_atomically(out / kGlbName, write_glb(mesh, &result.body_mesh));
+  if (converged) {  // what did not come to rest must not pass for a drape in a picture
+    const auto render_started = SteadyClock::now();
+    if (!draw_pictures(result, job.render, out, monitor)) return status(RunExit::cancelled);
+    report.time.render = seconds_since(render_started);
+    write_atomically(out / kStateName, write_drape_state(result, job.render.width, job.render.height));
+  }
+  report.time.total = seconds_since(started);
+  write_atomically(out / kReportName, write_report(report).dump(2) + "\n");
+
+  monitor.clear_bar();
+  std::fputs(cost_table(report).c_str(), stdout);
+  if (converged) return status(RunExit::done);
+  const std::string document = not_converged_document(report);
+  monitor.tell_problem(document);
+  std::fprintf(stderr, "%s\n", document.c_str());
+  return status(RunExit::not_converged);
+}
+
+}  // namespace
+
+int run_drape(const DrapeArguments& arguments) {
+  catch_stop_signals();
+  if (arguments.progress_fd >= 0) end_with_reader_of(arguments.progress_fd);
+  RunMonitor monitor(arguments.progress_fd);
+  try {
+    return drape_to_files(arguments, monitor);
+  } catch (const InputError& error) {
+    const nlohmann::json document = problem_document(error);
+    monitor.clear_bar();
+    monitor.tell_problem(document.dump());
+    std::fprintf(stderr, "%s\n", document.dump(2).c_str());
+    return status(RunExit::bad_input);
+  } catch (const Cancelled&) {
+    return status(RunExit::cancelled);
+  }
+}
+
+}  // namespace toile
