@@ -1,6 +1,4 @@
-#if __has_include("engine/mesh/gltf.h")
 #include "engine/mesh/gltf.h"
-#endif
 #include "engine/mesh/obj.h"
 #include "engine/scene/problem.h"
 #include "schemas/pointer.h"
@@ -17,9 +15,7 @@ namespace {
 Vec3 y_up(const Vec3& v) { return {v.x(), v.z(), -v.y()}; }
 
 TriangleMesh parse_mesh(const std::string& bytes, const std::string& pointer) {
-#if __has_include("engine/mesh/gltf.h")
   if (std::string_view(bytes).substr(0, 4) == "glTF") return read_glb(bytes, pointer);
-#endif
   return read_obj(bytes, pointer);
 }
 

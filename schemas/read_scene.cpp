@@ -1,5 +1,6 @@
 #include "schemas/read_scene.h"
 
+#include "engine/scene/check.h"
 #include "engine/scene/problem.h"
 #include "schemas/fabrics.h"
 #include "schemas/pointer.h"
@@ -139,6 +140,7 @@ Job read_scene(const json& document, const Resolver& resolve) {
   job.scene.fidelity = read_fidelity(document.value("fidelity", "standard"));
   job.scene.solver = read_solver(document.value("solver", json::object()));
   job.render = read_render(document.value("render", json::object()));
+  check_scene(job.scene);
   return job;
 }
 

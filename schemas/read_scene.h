@@ -38,8 +38,9 @@ void validate_scene_document(const nlohmann::json& document, FileReferences file
 std::vector<std::string> asset_references(const nlohmann::json& document);
 
 /// Reads a scene and all that it refers to. Lengths become metres, angles rotations, names of panels indices, labels to
-/// be attached pins. Throws InputError; the problems of a pattern have pointers as if the pattern's own `panels` stood
-/// in the scene (/garments/0/pattern/panels/NAME/edges/3), wherever its document stands.
+/// be attached pins; the whole then passes engine/scene/check.h. Throws InputError; the problems of a pattern have
+/// pointers as if the pattern's own `panels` stood in the scene (/garments/0/pattern/panels/NAME/edges/3), wherever its
+/// document stands.
 Job read_scene(const nlohmann::json& document, const Resolver& resolve);
 
 /// For the command line: files relative to `base`, and assets in `base`/assets/<64 hex digits>. Codes file_not_found,
