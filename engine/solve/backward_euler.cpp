@@ -45,6 +45,11 @@ NodeVector scaled(NodeVector values, double factor) {
   return values;
 }
 
+struct Norms {
+  double residual;  ///< ‖b‖ [kg·m/s]
+  double momentum;  ///< ‖M v‖ over free nodes [kg·m/s]
+};
+
 /// What stays fixed while a step is solved.
 struct StepProblem {
   const Positions* v0;
@@ -77,29 +82,31 @@ struct BackwardEuler::Implementation {
     return f;
   }
 
-  /// b = M (v₀ − v) + h F(x, v) on free nodes, 0 on held ones; returns ‖b‖ (computeRhs). `force` holds the terms'
+  /// b = M (v₀ − v) + h F(x, v) on free nodes, 0 on held ones; returns its norms (computeRhs). `force` holds the terms'
   /// forces.
-  double finish_residual(const StepProblem& p, const Positions& v) {
+  Norms finish_residual(const StepProblem& p, const Positions& v) {
     b.resize(v.size());
-    return std::sqrt(deterministic_sum(system.nodes(), kNodesPerTask, [&](int begin, int end) {
-      double sum = 0;
+    const auto squares = deterministic_sums<2>(system.nodes(), kNodesPerTask, [&](int begin, int end) {
+      std::array<double, 2> sums{};
       for (int i = begin; i < end; ++i) {
         b[i] = (*p.held)[i] ? Vec3::Zero()
                             : Vec3(system.mass()[i] * ((*p.v0)[i] - v[i]) + p.h * (force[i] + nodal_force(i, v[i])));
-        sum += b[i].squaredNorm();
+        sums[0] += b[i].squaredNorm();
+        if (!(*p.held)[i]) sums[1] += system.mass()[i] * system.mass()[i] * v[i].squaredNorm();
       }
-      return sum;
-    }));
+      return sums;
+    });
+    return {std::sqrt(squares[0]), std::sqrt(squares[1])};
   }
 
-  double residual(const StepProblem& p, const Positions& x, const Positions& v) {
+  Norms residual(const StepProblem& p, const Positions& x, const Positions& v) {
     system.forces(x, v, p.fabric_factor, force);
     contacts.add_forces(x, options.contact_stiffness, force);
     return finish_residual(p, v);
   }
 
   /// computeRhs and computeLhs at once: both need the same strains.
-  double residual_and_matrix(const StepProblem& p, const Positions& x, const Positions& v, StepTimes& times) {
+  Norms residual_and_matrix(const StepProblem& p, const Positions& x, const Positions& v, StepTimes& times) {
     {
       Stopwatch watch(times.derivatives);
       system.forces_and_matrix(x, v, {p.h * p.h, p.h, p.fabric_factor}, force, matrix);
@@ -107,7 +114,7 @@ struct BackwardEuler::Implementation {
     Stopwatch watch(times.assembly);
     contacts.add_forces_and_matrix(x, options.contact_stiffness, p.h * p.h, force, matrix);
     right_hand_side.resize(system.nodes());
-    const double norm = finish_residual(p, v);
+    const Norms norms = finish_residual(p, v);
     parallel_for_each(system.nodes(), kNodesPerTask, [&](int i) {
       right_hand_side[i] = {float(b[i].x()), float(b[i].y()), float(b[i].z()), 0};
       const double inertia = system.mass()[i] + p.h * air_drag_dissipation_hessian(options.air_drag, system.mass()[i]);
@@ -120,7 +127,7 @@ struct BackwardEuler::Implementation {
         preconditioner.set(i, diagonal);
       }
     });
-    return norm;
+    return norms;
   }
 
   SolverOptions options;
@@ -165,9 +172,9 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
   const double at_rest = std::min(s.options.newton_tolerance, kRestFraction * h * s.weight_norm);
 
   StepOutcome outcome;
-  double r_n = 0;
+  double r_n = 0, momentum = 0;
   for (int i_n = 0; i_n < s.options.newton_iterations; ++i_n) {
-    r_n = s.residual_and_matrix(problem, x, v, times);
+    r_n = s.residual_and_matrix(problem, x, v, times).residual;
     outcome.residual = r_n;
     if (!std::isfinite(r_n)) return outcome;
     ++outcome.newton_iterations;
@@ -189,9 +196,10 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
         v_trial[i] = v[i] + f_ls * Vec3(d.x, d.y, d.z);
         x_trial[i] = x0[i] + h * v_trial[i];
       });
-      const double norm = s.residual(problem, x_trial, v_trial);
-      if (norm < r_n) {
-        r_n = norm;
+      const Norms norms = s.residual(problem, x_trial, v_trial);
+      if (norms.residual < r_n) {
+        r_n = norms.residual;
+        momentum = norms.momentum;
         diverged = false;
         v.swap(v_trial);
         x.swap(x_trial);
@@ -201,8 +209,11 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
       ++outcome.line_search_halvings;
     }
     outcome.residual = r_n;
-    outcome.accepted = diverged ? r_n < at_rest : r_n < s.options.newton_tolerance;
-    if (diverged || outcome.accepted) break;
+    // Accepted once, further iterations can only lower the residual.
+    if (!outcome.accepted) outcome.accepted = diverged ? r_n < at_rest : r_n < s.options.newton_tolerance;
+    const double fraction = s.options.newton_momentum_fraction;
+    const bool accurate = fraction <= 0 || r_n < fraction * (momentum + h * s.weight_norm);
+    if (diverged || (outcome.accepted && accurate)) break;
   }
   s.last_acceleration.clear();
   if (!outcome.accepted) return outcome;
