@@ -14,9 +14,9 @@
 namespace toile {
 namespace {
 
-constexpr double kSnap = 0.25;      // of the edge opposite: nearer than this, no edge is split
+constexpr double kSnap = 0.35;      // of the edge opposite: nearer than this, no edge is split
 constexpr double kAtVertex = 1e-4;  // of an edge: files hold seven digits
-constexpr double kShared = 0.1;     // of an edge: two seams that split it this near to each other share the new vertex
+constexpr double kShared = 0.25;    // of an edge: two seams that split it this near to each other share the new vertex
 constexpr int kLongestWalk = 64;    // boundary vertices between two neighbours of the other side
 
 std::uint64_t edge_key(int a, int b) {
@@ -197,16 +197,24 @@ class Conformer {
       for (; s < splits_.size() && splits_[s].lo == lo && splits_[s].hi == hi; ++s) {
         const Split& split = splits_[s];
         const bool shares = !added.empty() && split.run != last_run && split.t - added.back().second < kShared;
-        if (!shares) {
-          added.emplace_back(static_cast<int>(mesh_.vertices.size()), split.t);
-          mesh_.vertices.push_back((1 - split.t) * Vec3(at(lo)) + split.t * Vec3(at(hi)));
-        }
+        if (!shares) added.emplace_back(static_cast<int>(mesh_.vertices.size() + added.size()), split.t);
         last_run = split.run;
         pairs_.emplace_back(split.partner, added.back().first);
       }
+      space_out(added);
+      for (const auto& [vertex, t] : added) mesh_.vertices.push_back((1 - t) * Vec3(at(lo)) + t * Vec3(at(hi)));
       const std::vector<int> around = triangles_on_[edge_key(lo, hi)];
       for (const int t : around) split_triangle(static_cast<std::size_t>(t), lo, hi, added);
     }
+  }
+
+  /// Moves new vertices along their edge until no piece is shorter than half its even share: a little ease, no slivers.
+  static void space_out(std::vector<std::pair<int, double>>& added) {
+    const double least = 0.5 / static_cast<double>(added.size() + 1);
+    double low = 0;
+    for (auto& [vertex, t] : added) low = t = std::max(t, low + least);
+    double high = 1;
+    for (auto it = added.rbegin(); it != added.rend(); ++it) high = it->second = std::min(it->second, high - least);
   }
 
   /// Replaces a triangle on the edge lo–hi by a fan from the corner opposite.

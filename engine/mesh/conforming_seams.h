@@ -11,7 +11,7 @@
 namespace toile {
 
 /// Turns mesh.stitches (then emptied) into pairs of vertices. Runs of stitches along one boundary are matched as two
-/// polylines: a vertex within a quarter of an edge of a vertex opposite is paired with it, one to one, nearest first;
+/// polylines: a vertex within a third of an edge of a vertex opposite is paired with it, one to one, nearest first;
 /// every other vertex of either side gets a partner by splitting the edge opposite (and its triangles; UVs and
 /// positions interpolated). New vertices come after the given ones. Throws InputError at `pointer` with
 /// `unknown_edge` where a stitch names two vertices that no triangle edge joins. Deterministic.
