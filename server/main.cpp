@@ -31,8 +31,8 @@ int main(int argc, char** argv) {
   render_command->add_option("--overlay", render.overlay, "fabric, stretch, contact or wireframe")
       ->capture_default_str();
   render_command->add_option("--width", render.width, "Pixels; as the scene had it unless given")
-      ->check(CLI::Range(16, 8192));
-  render_command->add_option("--height", render.height, "Pixels")->check(CLI::Range(16, 8192));
+      ->check(CLI::Range(16, 4096));
+  render_command->add_option("--height", render.height, "Pixels")->check(CLI::Range(16, 4096));
   render_command->add_option("--out", render.out, "The PNG to write")->required();
 
   toile::ServeArguments serve;

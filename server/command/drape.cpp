@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace toile {
 namespace {
@@ -27,6 +28,7 @@ namespace fs = std::filesystem;
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::size_t kSceneFileLimit = 64U << 20;  // bytes
+constexpr double kFractionDraped = 0.98;            // of a run, when its pictures begin
 
 int status(RunExit exit) { return static_cast<int>(exit); }
 
@@ -42,21 +44,15 @@ Job read_job(const DrapeArguments& arguments) {
   return job;
 }
 
-/// Draws what was asked for; false when the run was asked to stop meanwhile.
-bool draw_pictures(const Drape& drape, const RenderRequest& request, const fs::path& out, RunMonitor& monitor) {
-  const double pictures = static_cast<double>(request.views.size() * request.overlays.size());
-  constexpr double kDraped = 0.97;  // share of a run that is over when pictures begin
-  double drawn = 0;
+void draw_pictures(const Drape& drape, const RenderRequest& request, const fs::path& out) {
+  std::vector<PictureName> pictures;
   for (const std::string& view : request.views) {
-    for (const std::string& overlay : request.overlays) {
-      Progress progress;
-      progress.stage = "render";
-      progress.fraction_done = kDraped + (1 - kDraped) * drawn++ / pictures;
-      if (!monitor.report(progress)) return false;
-      write_atomically(out / preview_name(view, overlay), draw(drape, view, overlay, request.width, request.height));
-    }
+    for (const std::string& overlay : request.overlays) pictures.push_back({view, overlay});
   }
-  return true;
+  const std::vector<std::string> files = draw(drape, pictures, request.width, request.height);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    write_atomically(out / preview_name(pictures[i].view, pictures[i].overlay), files[i]);
+  }
 }
 
 std::string not_converged_document(const Report& report) {
@@ -82,7 +78,11 @@ int drape_to_files(const DrapeArguments& arguments, RunMonitor& monitor) {
   write_atomically(out / kGlbName, write_glb(mesh, &result.body_mesh));
   if (converged) {  // what did not come to rest must not pass for a drape in a picture
     const auto render_started = SteadyClock::now();
-    if (!draw_pictures(result, job.render, out, monitor)) return status(RunExit::cancelled);
+    Progress progress;
+    progress.stage = "render";
+    progress.fraction_done = kFractionDraped;
+    if (!monitor.report(progress)) throw Cancelled();
+    draw_pictures(result, job.render, out);
     report.time.render = seconds_since(render_started);
     write_atomically(out / kStateName, write_drape_state(result, job.render.width, job.render.height));
   }

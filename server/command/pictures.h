@@ -1,13 +1,20 @@
 #pragma once
-// From a drape to a PNG: the one place where the engine's result meets the renderer.
+// From a drape to PNGs: the one place where the engine's result meets the renderer.
 
 #include "engine/drape.h"
 
 #include <string>
+#include <vector>
 
 namespace toile {
 
-/// `view` and `overlay` as in scene.schema.json. Bytes of a PNG. Throws std::runtime_error when nothing can be drawn.
-std::string draw(const Drape& drape, const std::string& view, const std::string& overlay, int width, int height);
+/// Names as in scene.schema.json.
+struct PictureName {
+  std::string view, overlay;
+};
+
+/// The bytes of a PNG each, in order. Throws std::runtime_error when OpenGL can't be had, std::invalid_argument for an
+/// unknown name.
+std::vector<std::string> draw(const Drape& drape, const std::vector<PictureName>& pictures, int width, int height);
 
 }  // namespace toile

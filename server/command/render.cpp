@@ -14,7 +14,7 @@ int run_render(const RenderArguments& arguments) {
       read_drape_state(read_input_file(std::filesystem::path(arguments.job) / kStateName, kStateLimit));
   const int width = arguments.width > 0 ? arguments.width : state.width;
   const int height = arguments.height > 0 ? arguments.height : state.height;
-  write_atomically(arguments.out, draw(state.drape, arguments.view, arguments.overlay, width, height));
+  write_atomically(arguments.out, draw(state.drape, {{arguments.view, arguments.overlay}}, width, height).at(0));
   return 0;
 }
 

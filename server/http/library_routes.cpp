@@ -42,20 +42,24 @@ HttpResponse fabric(const HttpRequest& request) {
   return document(request, entry.dump() + "\n", "application/json");
 }
 
+bool is_schema_name(std::string_view name) {
+  constexpr std::string_view kEnd = ".schema.json";
+  return name.size() > kEnd.size() && name.substr(name.size() - kEnd.size()) == kEnd;
+}
+
+HttpResponse schemas(const HttpRequest& request) {
+  nlohmann::json names = nlohmann::json::array();
+  for (const std::string_view name : resource_names()) {
+    if (is_schema_name(name)) names.push_back(name);
+  }
+  return document(request, nlohmann::json{{"schemas", std::move(names)}}.dump() + "\n", "application/json");
+}
+
 HttpResponse schema(const HttpRequest& request) {
   const std::string& name = request.captures[0];
-  constexpr std::string_view kEnd = ".schema.json";
-  const bool is_schema = name.size() > kEnd.size() && name.substr(name.size() - kEnd.size()) == kEnd;
-  const std::string_view bytes = is_schema ? resource(name) : std::string_view{};
-  if (bytes.empty()) {
-    std::string list;
-    for (const std::string_view known : resource_names()) {
-      if (known.size() > kEnd.size() && known.substr(known.size() - kEnd.size()) == kEnd) {
-        list += (list.empty() ? "" : ", ") + std::string(known);
-      }
-    }
-    throw HttpProblem(404, "no_such_schema", "There is no schema of this name; there are " + list + ".");
-  }
+  const std::string_view bytes = is_schema_name(name) ? resource(name) : std::string_view{};
+  if (bytes.empty())
+    throw HttpProblem(404, "no_such_schema", "There is no schema of this name; GET /v1/schemas lists them.");
   return document(request, std::string(bytes), "application/schema+json");
 }
 
@@ -68,6 +72,8 @@ HttpResponse openapi(const HttpRequest& request) {
 void add_library_routes(Router& router) {
   router.add({"GET", "/v1/fabrics", fabrics, {}});
   router.add({"GET", "/v1/fabrics/{}", fabric, {}});
+  router.add({"GET", "/v1/schemas", schemas, {}});
+  router.add({"GET", "/v1/schemas/", schemas, {}});
   router.add({"GET", "/v1/schemas/{}", schema, {}});
   router.add({"GET", "/openapi.json", openapi, {}});
 }

@@ -225,6 +225,7 @@ TEST_F(ServiceTest, ShowsFabricsAndSchemas) {
   const std::string name = fabrics["fabrics"][0]["name"];
   EXPECT_EQ(request("GET", "/v1/fabrics/" + name).json(), fabrics["fabrics"][0]);
   EXPECT_EQ(request("GET", "/v1/fabrics/unobtainium").status, 404);
+  EXPECT_THAT(request("GET", "/v1/schemas").body, HasSubstr("\"scene.schema.json\""));
   const Answer schema = request("GET", "/v1/schemas/scene.schema.json");
   EXPECT_EQ(schema.status, 200);
   EXPECT_EQ(schema.json()["title"], "Scene");
