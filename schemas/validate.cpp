@@ -209,11 +209,16 @@ void validate_document(std::string_view schema, const json& document, const std:
     problems.push_back(
         {pointer, "not_valid", "A list is too long, or an element far down in it does not match its schema."});
   }
-  const auto choice_fails_at = [&](const std::string& place) {
-    return std::any_of(problems.begin(), problems.end(),
-                       [&](const Problem& p) { return p.code == "not_exactly_one" && p.pointer == place; });
+  const auto said = [&, first = problems](const std::string& code, const std::string& place) {
+    return std::any_of(first.begin(), first.end(),
+                       [&](const Problem& p) { return p.code == code && p.pointer == place; });
   };
-  std::erase_if(problems, [&](const Problem& p) { return p.code == "missing_key" && choice_fails_at(p.pointer); });
+  // One finding a place: what each form of a choice misses, and what a value of the wrong type is not, go without
+  // saying.
+  std::erase_if(problems, [&](const Problem& p) {
+    return (p.code == "missing_key" && said("not_exactly_one", p.pointer)) ||
+           (p.code != "wrong_type" && said("wrong_type", p.pointer));
+  });
   throw InputError(std::move(problems));
 }
 
