@@ -11,6 +11,7 @@ void for_each_solver_key(Options& o, Visit visit) {
   visit("max_time_step_s", o.max_time_step, 1.0);
   visit("simulated_time_limit_s", o.simulated_time_limit, 1.0);
   visit("newton_tolerance_kg_m_s", o.newton_tolerance, 1.0);
+  visit("newton_momentum_fraction", o.newton_momentum_fraction, 1.0);
   visit("cg_tolerance", o.cg_tolerance, 1.0);
   visit("newton_iterations", o.newton_iterations, 1.0);
   visit("line_search_iterations", o.line_search_iterations, 1.0);
