@@ -22,6 +22,10 @@ constexpr int kNodesPerTask = 1024;
 /// squares over nodes): a hundredth of it moves a free node by g h²/100.
 constexpr double kRestFraction = 1e-2;
 
+/// Iterations after the first may halve so many times as often as options.line_search_iterations: what is left of the
+/// residual is small and stiff, and a solve's error along the soft directions may undo it at any longer step.
+constexpr int kCorrectionHalvings = 2;
+
 class Stopwatch {
  public:
   explicit Stopwatch(double& total) : total_(total), start_(std::chrono::steady_clock::now()) {}
@@ -190,7 +194,8 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
     Stopwatch watch(times.line_search);
     double f_ls = 1;
     bool diverged = true;
-    for (int i_ls = 0; i_ls < s.options.line_search_iterations; ++i_ls) {
+    const int halvings = (i_n == 0 ? 1 : kCorrectionHalvings) * s.options.line_search_iterations;
+    for (int i_ls = 0; i_ls < halvings; ++i_ls) {
       parallel_for_each(nodes, kNodesPerTask, [&](int i) {
         const Float4& d = s.delta_v[i];
         v_trial[i] = v[i] + f_ls * Vec3(d.x, d.y, d.z);
