@@ -1,0 +1,2 @@
+// The key light's depth map: depth only.
+void main() {}
