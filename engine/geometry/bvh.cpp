@@ -63,15 +63,6 @@ Bvh::FloatBox Bvh::merged(const FloatBox& a, const FloatBox& b) {
   return m;
 }
 
-double Bvh::squared_distance_to(const FloatBox& box, const Vec3& point) {
-  double squared = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double outside = std::max({box.lower[k] - point[k], 0.0, point[k] - box.upper[k]});
-    squared += outside * outside;
-  }
-  return squared;
-}
-
 Bvh::Bvh(std::span<const Box> boxes) {
   const int n = static_cast<int>(boxes.size());
   if (n == 0) return;

@@ -5,6 +5,7 @@
 #include "engine/geometry/box.h"
 #include "engine/types.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <span>
@@ -54,7 +55,14 @@ class Bvh {
     return a.lower[0] <= b.upper[0] && b.lower[0] <= a.upper[0] && a.lower[1] <= b.upper[1] &&
            b.lower[1] <= a.upper[1] && a.lower[2] <= b.upper[2] && b.lower[2] <= a.upper[2];
   }
-  static double squared_distance_to(const FloatBox& box, const Vec3& point);
+  static double squared_distance_to(const FloatBox& box, const Vec3& point) {
+    double squared = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double outside = std::max({box.lower[k] - point[k], 0.0, point[k] - box.upper[k]});
+      squared += outside * outside;
+    }
+    return squared;
+  }
   int leaf_end(int first) const { return first + kLeafSize < size() ? first + kLeafSize : size(); }
   void fit_leaves(std::span<const Box> boxes);
   void fit_inner_nodes();

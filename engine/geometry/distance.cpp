@@ -41,15 +41,38 @@ PointSegment point_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
 
 PointTriangle point_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const Vec3 normal = ab.cross(ac);
-  const double area2 = normal.squaredNorm();
-  const double size2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
-  if (!(area2 > 1e-24 * size2 * size2)) return nearest_edge(p, a, b, c);
-  const double v = ap.cross(ac).dot(normal) / area2;
-  const double w = ab.cross(ap).dot(normal) / area2;
-  if (v < 0 || w < 0 || v + w > 1) return nearest_edge(p, a, b, c);
-  const double height = ap.dot(normal);
-  return {{1 - v - w, v, w}, height * height / area2};
+  const double bb = ab.squaredNorm(), cc = ac.squaredNorm(), bc = ab.dot(ac);
+  const double area2 = bb * cc - bc * bc, size2 = std::max(bb, cc);
+  // Too thin for barycentric coordinates.
+  if (!(area2 > 1e-10 * size2 * size2)) return nearest_edge(p, a, b, c);
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  const auto at = [&](double v, double w) {
+    return PointTriangle{{1 - v - w, v, w}, (ap - v * ab - w * ac).squaredNorm()};
+  };
+  if (d1 <= 0 && d2 <= 0) return at(0, 0);
+  const double d3 = d1 - bb, d4 = d2 - bc;  // of p − b
+  if (d3 >= 0 && d4 <= d3) return {Vec3::UnitY(), (p - b).squaredNorm()};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return at(std::clamp(d1 / bb, 0.0, 1.0), 0);
+  const double d5 = d1 - bc, d6 = d2 - cc;  // of p − c
+  if (d6 >= 0 && d5 <= d6) return {Vec3::UnitZ(), (p - c).squaredNorm()};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return at(0, std::clamp(d2 / cc, 0.0, 1.0));
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 >= d3 && d5 >= d6) {
+    const double w = std::clamp((d4 - d3) / ((d4 - d3) + (d5 - d6)), 0.0, 1.0);
+    PointTriangle edge = at(1 - w, w);
+    edge.weights[0] = 0;
+    return edge;
+  }
+  const double sum = va + vb + vc;
+  if (!(sum > 0)) return nearest_edge(p, a, b, c);
+  PointTriangle face = at(vb / sum, vc / sum);
+  face.weights[0] = va / sum;
+  // The distance along the normal is right to rounding where the one to the foot has cancelled.
+  const double height = ap.dot(ab.cross(ac));
+  face.squared_distance = height * height / ab.cross(ac).squaredNorm();
+  return face;
 }
 
 SegmentSegment segment_segment(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {

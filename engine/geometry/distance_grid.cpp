@@ -31,7 +31,7 @@ class Walker {
     const double step = (p - last_point_).norm();
     // A ball around either point that reaches the other one holds no surface: both lie on the same side.
     const bool same_side = known_ && step < std::max(distance, std::abs(last_distance_));
-    const bool inside = same_side ? last_distance_ < 0 : solid_.inside(p);
+    const bool inside = same_side ? last_distance_ < 0 : is_inside(p);
     known_ = true;
     last_point_ = p;
     last_distance_ = inside ? -distance : distance;
@@ -43,6 +43,24 @@ class Walker {
     const auto& [a, b, c] = solid_.triangles[t];
     return point_triangle(p, solid_.vertices[a], solid_.vertices[b], solid_.vertices[c]).squared_distance;
   }
+
+  bool is_inside(const Vec3& p) const {
+    const auto& [i, j, k] = solid_.triangles[triangle_];
+    const Vec3 &a = solid_.vertices[i], &b = solid_.vertices[j], &c = solid_.vertices[k];
+    const Vec3 weights = point_triangle(p, a, b, c).weights;
+    // Nothing lies between a point and the surface nearest to it: within a face, its side decides. At edges and corners
+    // it does not, nor for pieces so thin that their normal is noise.
+    const Vec3 normal = (b - a).cross(c - a);
+    const double side = normal.dot(p - a);
+    const double size2 = std::max((b - a).squaredNorm(), (c - a).squaredNorm());
+    if (weights.minCoeff() < kWithinFace || normal.norm() < kWithinFace * size2 ||
+        std::abs(side) < kWithinFace * normal.norm() * std::sqrt(size2)) {
+      return solid_.inside(p);
+    }
+    return side < 0;
+  }
+
+  static constexpr double kWithinFace = 1e-3;  ///< relative
 
   const Bvh& bvh_;
   const SoupSolid& solid_;

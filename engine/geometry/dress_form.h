@@ -10,8 +10,8 @@ namespace toile {
 struct DressFormMeasures {
   double neck = 0;       ///< where its girth is taken, a little above its base
   double neck_base = 0;  ///< where the line of the shoulders meets it
-  double shoulder = 0;  ///< of the shoulder point
-  double underarm = 0;  ///< where arm and torso part
+  double shoulder = 0;   ///< of the shoulder point
+  double underarm = 0;   ///< where arm and torso part
   double bust = 0, underbust = 0, waist = 0, high_hip = 0, hip = 0, crotch = 0, knee = 0;
   double shoulder_half_width = 0;  ///< x of the shoulder point
   double arm_angle = 0;            ///< of the arm's axis below the horizontal [rad]

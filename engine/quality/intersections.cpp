@@ -69,9 +69,10 @@ bool segment_meets(const Vec3& p, const Vec3& q, int side_p, int side_q, const C
   return low == 0 || high == 0;
 }
 
-std::array<int, 3> sides(const Corners& plane, const Corners& of) {
-  std::array<int, 3> side;
-  for (int k = 0; k < 3; ++k) side[k] = orientation_sign(plane[0], plane[1], plane[2], of[k]);
+/// Of the corners from `first` on; those before it are shared, on the plane.
+std::array<int, 3> sides(const Corners& plane, const Corners& of, int first = 0) {
+  std::array<int, 3> side{};
+  for (int k = first; k < 3; ++k) side[k] = orientation_sign(plane[0], plane[1], plane[2], of[k]);
   return side;
 }
 
@@ -93,7 +94,10 @@ bool apart_cross(const Corners& a, const Corners& b) {
 
 /// Both begin with the shared vertex. The common part is then a point, or reaches the far edge of one of them.
 bool fan_cross(const Corners& a, const Corners& b) {
-  const std::array<int, 3> b_of_a = sides(a, b), a_of_b = sides(b, a);
+  const std::array<int, 3> b_of_a = sides(a, b, 1);
+  if (b_of_a[1] * b_of_a[2] > 0) return false;
+  const std::array<int, 3> a_of_b = sides(b, a, 1);
+  if (a_of_b[1] * a_of_b[2] > 0) return false;
   return segment_meets(b[1], b[2], b_of_a[1], b_of_a[2], a) || segment_meets(a[1], a[2], a_of_b[1], a_of_b[2], b);
 }
 
