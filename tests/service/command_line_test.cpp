@@ -1,0 +1,119 @@
+// `toile drape` as a person runs it: exit statuses, files, the problem on the error stream.
+
+#include "tests/service/service_process.h"
+
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace toile {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+class CommandLine : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = testing::TempDir() + "toile-command-XXXXXX";
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string scene(const std::string& fidelity, const std::string& more = "") {
+    std::ofstream(folder_ + "/scene.json")
+        << R"({"garments":[{"rectangle":{"width_mm":300,"height_mm":300},"edge_length_mm":30,)"
+        << R"("transform":{"translate_mm":[0,270,0]}}],"body":{"sphere":{"radius_mm":150,"center_mm":[0,100,0]}},)"
+        << R"("fidelity":")" << fidelity << R"(","render":{"views":["front"],"overlays":["fabric","stretch"],)"
+        << R"("size_px":[64,48]})" << more << "}";
+    return folder_ + "/scene.json";
+  }
+  /// Runs toile in the test's folder; what it wrote to both streams.
+  std::string toile(const std::string& arguments, int* status) const {
+    return shell("cd " + folder_ + " && " TOILE_BINARY " " + arguments + " 2>&1 </dev/null", status);
+  }
+  json report() const { return json::parse(std::ifstream(folder_ + "/out/report.json"), nullptr, false); }
+
+  std::string folder_;
+};
+
+TEST_F(CommandLine, HelpAndVersionNeedNothing) {
+  int status = -1;
+  EXPECT_THAT(toile("--version", &status), testing::StartsWith("toile 0."));
+  EXPECT_EQ(status, 0);
+  EXPECT_THAT(toile("--help", &status), testing::HasSubstr("serve"));
+  EXPECT_EQ(status, 0);
+  EXPECT_THAT(toile("drape --help", &status), testing::HasSubstr("--progress-fd"));
+  EXPECT_EQ(status, 0);
+}
+
+TEST_F(CommandLine, WritesEveryResult) {
+  int status = -1;
+  const std::string table = toile("drape " + scene("standard") + " --out out", &status);
+  EXPECT_EQ(status, 0) << table;
+  EXPECT_THAT(table, testing::HasSubstr("seam gap"));
+  for (const char* name : {"report.json", "mesh.obj", "mesh.glb", "preview-front.png", "preview-front-stretch.png"}) {
+    EXPECT_GT(fs::file_size(folder_ + "/out/" + name), 0U) << name;
+  }
+  EXPECT_EQ(report()["status"], "converged");
+  toile("render --job out --view top --overlay wireframe --out top.png", &status);
+  EXPECT_EQ(status, 0);
+  EXPECT_GT(fs::file_size(folder_ + "/top.png"), 0U);
+}
+
+TEST_F(CommandLine, TheNumberOfThreadsDoesNotChangeTheResult) {
+  int status = -1;
+  const std::string file = scene("standard", R"(,"solver":{"simulated_time_limit_s":0.05})");
+  toile("drape " + file + " --out out --threads 1", &status);
+  const json one = report()["result_sha256"];
+  toile("drape " + file + " --out out --threads 2", &status);
+  EXPECT_TRUE(one.is_string());
+  EXPECT_EQ(report()["result_sha256"], one);
+}
+
+TEST_F(CommandLine, NotConvergedIsThreeAndKeepsReportAndMesh) {
+  int status = -1;
+  const std::string output =
+      toile("drape " + scene("standard", R"(,"solver":{"simulated_time_limit_s":0.02})") + " --out out", &status);
+  EXPECT_EQ(status, 3) << output;
+  EXPECT_EQ(report()["status"], "not_converged");
+  EXPECT_TRUE(fs::exists(folder_ + "/out/mesh.obj"));
+  EXPECT_FALSE(fs::exists(folder_ + "/out/preview-front.png")) << "no pretty picture of what is not at rest";
+}
+
+TEST_F(CommandLine, BadInputIsTwoWithTheProblem) {
+  int status = -1;
+  const json problem = json::parse(toile("drape " + scene("hasty") + " --out out", &status), nullptr, false);
+  EXPECT_EQ(status, 2);
+  ASSERT_TRUE(problem.is_object());
+  EXPECT_EQ(problem["errors"][0]["pointer"], "/fidelity");
+  EXPECT_THAT(toile("drape absent.json --out out", &status), testing::HasSubstr("file_not_found"));
+  EXPECT_EQ(status, 2);
+}
+
+TEST_F(CommandLine, AStopSignalIsFour) {
+  int status = -1;
+  scene("reference", R"(,"solver":{"early_stop":false,"simulated_time_limit_s":60})");
+  shell("cd " + folder_ + " && { " TOILE_BINARY " drape scene.json --out out & sleep 1; kill -TERM $!; wait $!; }",
+        &status);
+  EXPECT_EQ(status, 4);
+}
+
+TEST_F(CommandLine, ARunWhoseReaderDiesEnds) {
+  int status = -1;
+  scene("reference", R"(,"solver":{"early_stop":false,"simulated_time_limit_s":60})");
+  const std::string pid =
+      shell("cd " + folder_ +
+                " && { " TOILE_BINARY
+                " drape scene.json --out out --progress-fd 3 3>&1 >/dev/null 2>&1 & echo $!; } | head -n 1",
+            &status);
+  ASSERT_NE(pid, "");
+  for (int i = 0; i < 500 && is_alive(std::stoi(pid)); ++i) shell("sleep 0.01");
+  EXPECT_FALSE(is_alive(std::stoi(pid)));
+}
+
+}  // namespace
+}  // namespace toile

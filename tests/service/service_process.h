@@ -1,0 +1,51 @@
+#pragma once
+// A real `toile serve` on a free loopback port, and curl to talk to it: what a person would do, done by a test.
+
+#include <sys/types.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace toile {
+
+struct CurlAnswer {
+  int status = 0;  ///< 0: no answer
+  std::string body;
+  nlohmann::json json() const { return nlohmann::json::parse(body, nullptr, false); }
+};
+
+class ServiceProcess {
+ public:
+  /// Starts the server on this data folder and waits until it listens.
+  explicit ServiceProcess(const std::string& data, const std::vector<std::string>& arguments = {});
+  ServiceProcess(const ServiceProcess&) = delete;
+  ServiceProcess& operator=(const ServiceProcess&) = delete;
+  ~ServiceProcess();
+
+  /// curl with these arguments (a shell's words) on a path of this server.
+  CurlAnswer curl(const std::string& path, const std::string& arguments = {}) const;
+  /// POST /v1/jobs with a scene; the job's id, or "" and a test failure.
+  std::string submit(const std::string& scene) const;
+  /// Polls until `state`, a final state, or the patience's end; the job's document as it is then.
+  nlohmann::json wait_for(const std::string& id, const std::string& state, int patience_s = 60) const;
+
+  void kill_now();  ///< kill -9
+  int stop();       ///< SIGTERM; the exit status
+  long resident_kib() const;
+  pid_t pid() const { return pid_; }
+  /// The runs that this server has started.
+  std::vector<pid_t> runs() const;
+
+ private:
+  pid_t pid_ = -1;
+  int port_ = 0;
+};
+
+/// The output of a shell command line, and its exit status.
+std::string shell(const std::string& command, int* status = nullptr);
+
+/// Whether the process is there and no zombie.
+bool is_alive(pid_t pid);
+
+}  // namespace toile
