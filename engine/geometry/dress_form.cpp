@@ -172,8 +172,8 @@ DressFormMeasures dress_form_measures(const DressFormBody& body) {
   m.crotch = 0.465 * h;
   m.knee = 0.275 * h;
   m.shoulder_half_width = 0.5 * body.shoulder_width;
-  m.arm_angle = std::numbers::pi / 4;
-  m.arm_radius = 0.05 * body.bust / 0.92;
+  m.arm_angle = 42 * std::numbers::pi / 180;
+  m.arm_radius = 0.05 * std::sqrt(body.bust / 0.92);
   m.arm_length = 0.16 * h;
   return m;
 }
