@@ -110,7 +110,10 @@ Camera camera_for(View view, const Subject& subject, const Frame& frame, int wid
 
 KeyLight key_light(const Camera& camera, double radius) {
   KeyLight light;
-  light.towards = (-0.55 * camera.right + 0.62 * camera.up + 0.62 * camera.back).normalized();
+  // Seen from above, a steeper light: its shadow on the ground would be longer than the picture.
+  const bool from_above = camera.back.y() > 0.9;
+  light.towards = from_above ? (-0.32 * camera.right + 0.38 * camera.up + 0.87 * camera.back).normalized()
+                             : (-0.55 * camera.right + 0.62 * camera.up + 0.62 * camera.back).normalized();
   light.fill = (0.80 * camera.right + 0.10 * camera.up + 0.55 * camera.back).normalized();
   const double reach = std::max(radius, kSmallestRadius);
   const Vec3 side =

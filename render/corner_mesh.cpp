@@ -8,7 +8,7 @@ namespace toile {
 namespace {
 
 constexpr double kCrease = 0.5;  // share of the panel's own normal where panels meet: the seam shows, folds stay smooth
-constexpr Rgb kBodyColor{178, 176, 174};
+constexpr Rgb kBodyColor{192, 190, 188};
 constexpr Rgb kWireframeColor{226, 226, 224};
 
 using Edge = std::pair<int, int>;

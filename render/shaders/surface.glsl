@@ -28,6 +28,7 @@ out vec4 o_color;
 const float kKey = 0.92, kFill = 0.16, kSky = 0.42, kEarth = 0.22, kSheen = 0.10;
 const float kMapKey = 0.34, kMapBase = 0.68;  // coloured overlays: flatter light, so that colours stay those of the legend
 const float kShoulder = 0.80;                 // above it, light is compressed instead of clipped
+const float kGroundShadow = 0.74, kGroundContact = 0.5;  // darkest factor of each on the ground
 const int kShadowReach = 2;                   // 5 x 5 taps, each a bilinear comparison
 
 float key_light(vec3 n) {
@@ -36,6 +37,12 @@ float key_light(vec3 n) {
   vec3 at = v_position + n * u_shadow_texel * (1.5 + 3.0 * (1.0 - clamp(lit, 0.0, 1.0)));
   vec3 map = (u_light * vec4(at, 1.0)).xyz;
   vec2 texel = 1.6 / vec2(textureSize(u_shadow, 0));
+  float reach = float(kShadowReach);
+  float corners = texture(u_shadow, vec3(map.xy + vec2(-reach, -reach) * texel, map.z)) +
+                  texture(u_shadow, vec3(map.xy + vec2(reach, -reach) * texel, map.z)) +
+                  texture(u_shadow, vec3(map.xy + vec2(-reach, reach) * texel, map.z)) +
+                  texture(u_shadow, vec3(map.xy + vec2(reach, reach) * texel, map.z));
+  if (corners == 0.0 || corners == 4.0) return 0.25 * corners;  // away from a shadow's edge: four of five pixels
   float sum = 0.0;
   for (int y = -kShadowReach; y <= kShadowReach; ++y)
     for (int x = -kShadowReach; x <= kShadowReach; ++x)
@@ -66,10 +73,13 @@ vec3 shoulder(vec3 light) {
 
 void main() {
   if (u_material == 2) {
-    float fade = 1.0 - smoothstep(0.25, 1.0, length(v_position - u_ground_centre) / u_ground_radius);
-    float shade = mix(1.0, 0.74 + 0.26 * key_light(vec3(0, 1, 0)), fade);
-    float contact = mix(1.0, mix(0.55, 1.0, openness()), fade);
-    o_color = vec4(backdrop(gl_FragCoord.xy) * shade * contact, 1.0);
+    float fade = 1.0 - smoothstep(0.20, 1.0, length(v_position - u_ground_centre) / u_ground_radius);
+    o_color = vec4(backdrop(gl_FragCoord.xy), 1.0);
+    if (fade > 0.0) {
+      float shade = mix(1.0, mix(kGroundShadow, 1.0, key_light(vec3(0, 1, 0))), fade);
+      float contact = mix(1.0, mix(kGroundContact, 1.0, openness()), fade);
+      o_color.rgb *= shade * contact;
+    }
     return;
   }
   vec3 eye = normalize(u_eye - v_position);
