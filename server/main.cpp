@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   serve_command->add_option("--run-memory-mib", serve.run_memory_mib, "Address space of one run; 0: no limit")
       ->capture_default_str();
-  serve_command->add_option("--max-queued", serve.max_queued, "Jobs waiting at once; more get 503")
+  serve_command->add_option("--max-queued", serve.max_queued, "Jobs waiting at once; more get 429")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   serve_command->add_option("--runner", serve.runner, "Executable that does the runs; this one unless told otherwise");

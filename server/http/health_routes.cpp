@@ -1,3 +1,4 @@
+#include "server/http/problem_response.h"
 #include "server/http/service.h"
 
 #include <nlohmann/json.hpp>
@@ -8,22 +9,21 @@ void add_health_routes(Router& router, Service& service) {
   router.add({"GET",
               "/healthz",
               [&service](const HttpRequest&) {
-                bool store_works = true;
+                long queued = 0;
                 try {
                   service.store.check();
+                  queued = service.store.queued_jobs();
                 } catch (const StoreError&) {
-                  store_works = false;
+                  throw HttpProblem(503, "store_failing", "The store does not answer.");
                 }
-                const bool dispatcher_works = service.dispatcher.is_healthy();
-                const auto word = [](bool well) { return well ? "ok" : "failing"; };
-                const bool well = store_works && dispatcher_works;
-                HttpResponse response;
-                response.status = well ? 200 : 503;
+                if (!service.dispatcher.is_healthy()) {
+                  throw HttpProblem(503, "dispatcher_failing", "The workers have shown no sign of life of late.");
+                }
                 nlohmann::json document;
-                document["status"] = word(well);
+                document["status"] = "ok";
                 document["version"] = TOILE_VERSION;
-                document["checks"]["store"] = word(store_works);
-                document["checks"]["dispatcher"] = word(dispatcher_works);
+                document["queued"] = queued;
+                HttpResponse response;
                 response.body = document.dump() + "\n";
                 response.headers = {{"Cache-Control", "no-store"}};
                 return response;

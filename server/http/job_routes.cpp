@@ -93,7 +93,7 @@ HttpResponse submit(Service& service, const HttpRequest& request) {
   const std::optional<std::string> key = idempotency_key(request);
   const json scene = checked_scene(request.body, service.store);
   if (service.store.queued_jobs() >= service.options.max_queued) {
-    throw HttpProblem(503, "queue_full", "Too many jobs wait already.").with_header("Retry-After", "30");
+    throw HttpProblem(429, "queue_full", "Too many jobs wait already.").with_header("Retry-After", "30");
   }
   const TimeMs now = service.clock();
   const Submission submission =
@@ -159,7 +159,7 @@ HttpResponse cancel(Service& service, const HttpRequest& request) {
   if (outcome == CancelOutcome::already_final && job.state != JobState::cancelled) {
     throw HttpProblem(409, "job_finished", "The job has " + std::string(name_of(job.state)) + " already.");
   }
-  return json_response(outcome == CancelOutcome::requested ? 202 : 200, job_document(job));
+  return json_response(202, job_document(job));
 }
 
 }  // namespace

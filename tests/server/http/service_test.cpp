@@ -104,11 +104,11 @@ TEST_F(ServiceTest, CancelsWhatRunsAndWhatWaits) {
   const std::string running = submit("hang").json()["id"], waiting = submit("fine").json()["id"];
   while (store_->job(running)->state == JobState::queued) std::this_thread::yield();
   const Answer at_once = request("DELETE", "/v1/jobs/" + waiting);
-  EXPECT_EQ(at_once.status, 200);
+  EXPECT_EQ(at_once.status, 202);
   EXPECT_EQ(at_once.json()["state"], "cancelled");
   EXPECT_EQ(request("DELETE", "/v1/jobs/" + running).status, 202);
   EXPECT_EQ(wait_for_end(running)["state"], "cancelled");
-  EXPECT_EQ(request("DELETE", "/v1/jobs/" + running).status, 200) << "asking twice is no error";
+  EXPECT_EQ(request("DELETE", "/v1/jobs/" + running).status, 202) << "asking twice is no error";
 
   const std::string done = submit("fine").json()["id"];
   wait_for_end(done);
@@ -150,14 +150,14 @@ TEST_F(ServiceTest, AFullQueueSaysWhenToComeBack) {
   service_->options.max_queued = 1;
   submit("hang");
   int status = 0;
-  for (int i = 0; i < 3 && status != 503; ++i) {
+  for (int i = 0; i < 3 && status != 429; ++i) {
     const Answer answer = submit("fine");
     status = answer.status;
-    if (status == 503) {
+    if (status == 429) {
       EXPECT_EQ(answer.header("Retry-After"), "30");
     }
   }
-  EXPECT_EQ(status, 503);
+  EXPECT_EQ(status, 429);
 }
 
 struct BadScene {
@@ -224,6 +224,8 @@ TEST_F(ServiceTest, ShowsFabricsAndSchemas) {
   ASSERT_FALSE(fabrics["fabrics"].empty());
   const std::string name = fabrics["fabrics"][0]["name"];
   EXPECT_EQ(request("GET", "/v1/fabrics/" + name).json(), fabrics["fabrics"][0]);
+  EXPECT_NO_THROW(validate_document("fabric.schema.json", fabrics["fabrics"][0])) << fabrics["fabrics"][0];
+  EXPECT_EQ(request("GET", "/openapi.json").json()["openapi"].get<std::string>().substr(0, 2), "3.");
   EXPECT_EQ(request("GET", "/v1/fabrics/unobtainium").status, 404);
   EXPECT_THAT(request("GET", "/v1/schemas").body, HasSubstr("\"scene.schema.json\""));
   const Answer schema = request("GET", "/v1/schemas/scene.schema.json");
@@ -236,8 +238,52 @@ TEST_F(ServiceTest, ShowsFabricsAndSchemas) {
 TEST_F(ServiceTest, HealthIsAskedOfTheStoreAndTheDispatcher) {
   const Answer answer = request("GET", "/healthz");
   EXPECT_EQ(answer.status, 200);
-  EXPECT_EQ(answer.json()["checks"]["store"], "ok");
-  EXPECT_EQ(answer.json()["checks"]["dispatcher"], "ok");
+  EXPECT_EQ(answer.json()["status"], "ok");
+  EXPECT_EQ(answer.json()["queued"], 0);
+}
+
+/// A store whose disk is gone.
+class FailingStore final : public Store {
+ public:
+  explicit FailingStore(Store& good) : good_(good) {}
+  bool put_asset(const std::string&, std::string_view, TimeMs) override { fail(); }
+  bool has_asset(const std::string&) override { fail(); }
+  std::optional<std::string> asset(const std::string&) override { fail(); }
+  Submission submit(const NewJob&, TimeMs) override { fail(); }
+  std::optional<JobRecord> job(const std::string&) override { fail(); }
+  JobPage jobs(std::optional<JobState>, const std::string&, int) override { fail(); }
+  long queued_jobs() override { fail(); }
+  std::optional<Lease> lease(TimeMs now, TimeMs duration) override { return good_.lease(now, duration); }
+  LeaseState heartbeat(const Lease&, const std::string&, TimeMs, TimeMs) override { fail(); }
+  bool publish(const Lease&, JobState, const std::string&, const std::vector<Artifact>&, TimeMs) override { fail(); }
+  bool give_up(const Lease&, const std::string&, TimeMs, TimeMs) override { fail(); }
+  bool hand_back(const Lease&, TimeMs) override { fail(); }
+  long release_all_leases(TimeMs) override { fail(); }
+  CancelOutcome cancel(const std::string&, TimeMs) override { fail(); }
+  void add_artifact(const std::string&, const Artifact&) override { fail(); }
+  std::optional<Artifact> artifact(const std::string&, const std::string&) override { fail(); }
+  void check() override { fail(); }
+
+ private:
+  [[noreturn]] static void fail() { throw StoreError(StoreError::Kind::unavailable, "the disk /dev/secret is gone"); }
+  Store& good_;
+};
+
+TEST_F(ServiceTest, AFailingStoreIsSaidWithoutItsInsides) {
+  FailingStore failing(*store_);
+  Service service{failing, *dispatcher_, *previews_, system_time_ms, {}};
+  HttpServer server(make_router(service));
+  const int healthy_port = std::exchange(port_, server.bind("127.0.0.1", 0));
+  std::thread serving([&] { server.serve(); });
+  for (const char* path : {"/healthz", "/v1/jobs"}) {
+    const Answer answer = request("GET", path);
+    EXPECT_EQ(answer.status, 503) << path;
+    EXPECT_EQ(answer.header("Content-Type"), "application/problem+json");
+    EXPECT_THAT(answer.head + answer.body, testing::Not(HasSubstr("secret"))) << path;
+  }
+  server.stop();
+  serving.join();
+  port_ = healthy_port;
 }
 
 TEST(JobDocument, WritesTimesAsRfc3339) {
