@@ -14,13 +14,34 @@ double smallest_altitude(const std::array<Vec2, 3>& flat) {
   return longest > 0 ? std::abs(a.x() * b.y() - a.y() * b.x()) / longest : 0;
 }
 
+void add_seam_zones(const Cloth& cloth, SeamZone wanted, CollisionMesh& mesh) {
+  const std::size_t n = cloth.x.size();
+  mesh.seam_zone.assign(n, {});
+  if (!wanted.same_panel) {
+    mesh.panel.assign(n, 0);
+    for (std::size_t t = 0; t < cloth.triangles.size(); ++t)
+      for (int v : cloth.triangles[t]) mesh.panel[v] = cloth.triangle_panel[t];
+  }
+  std::vector<std::set<int>> zone(n);
+  for (const SeamPair& pair : cloth.seam_pairs)
+    for (int v : {pair.a, pair.b}) zone[v].insert(mesh.identity[v]);
+  for (int round = 0; round < wanted.edges; ++round) {
+    const std::vector<std::set<int>> before = zone;
+    for (const auto& [a, b] : mesh.edges) {
+      zone[a].insert(before[b].begin(), before[b].end());
+      zone[b].insert(before[a].begin(), before[a].end());
+    }
+  }
+  for (std::size_t v = 0; v < n; ++v) mesh.seam_zone[v].assign(zone[v].begin(), zone[v].end());
+}
+
 }  // namespace
 
 double default_contact_distance(double thickness, double edge_length) {
   return std::max(thickness, std::min(0.18 * edge_length, 3e-3));
 }
 
-CollisionMesh make_collision_mesh(const Cloth& cloth, double contact_distance) {
+CollisionMesh make_collision_mesh(const Cloth& cloth, double contact_distance, SeamZone zone) {
   CollisionMesh mesh;
   mesh.triangles = cloth.triangles;
   mesh.identity = seam_representatives(cloth);
@@ -42,6 +63,7 @@ CollisionMesh make_collision_mesh(const Cloth& cloth, double contact_distance) {
     }
   }
   mesh.edges.assign(edges.begin(), edges.end());
+  if (zone.edges > 0) add_seam_zones(cloth, zone, mesh);
   return mesh;
 }
 

@@ -9,11 +9,15 @@
 namespace toile {
 
 /// Surface features of the cloth with their contact properties. Vertices of equal `identity` count as one vertex (seam
-/// partners that are still apart), so that features which will share a vertex are never in contact.
+/// partners that are still apart), so that features which will share a vertex are never in contact. Nor are features of
+/// two panels that lie in the zone of one seam vertex while the seam closes: its edges may slide through each other, as
+/// fingers turn them the right way round in sewing.
 struct CollisionMesh {
   std::vector<Triangle> triangles;
   std::vector<std::array<int, 2>> edges;
   std::vector<int> identity;
+  std::vector<int> panel;                   ///< per vertex, where only features of different panels share zones; else empty
+  std::vector<std::vector<int>> seam_zone;  ///< per vertex: identities of seam vertices nearby, ascending; empty: none
   std::vector<double> distance;  ///< per vertex: cloth–cloth repulsion starts here [m]; a pair takes its smallest
   std::vector<double> friction;  ///< per vertex: cloth–cloth Coulomb coefficient; a pair takes the mean of its nodes
 };
@@ -24,6 +28,11 @@ double default_contact_distance(double thickness, double edge_length);
 
 /// `contact_distance` 0 means the default. Around triangles that are small (the pattern's own short edges) the distance
 /// shrinks to 0.3 of the smallest rest altitude, so that a flat sheet never touches itself.
-CollisionMesh make_collision_mesh(const Cloth& cloth, double contact_distance);
+/// `zone` gives each seam vertex a zone of that many edges around it on either panel.
+struct SeamZone {
+  int edges = 0;
+  bool same_panel = false;  ///< features of one panel in the zone ignore each other, too
+};
+CollisionMesh make_collision_mesh(const Cloth& cloth, double contact_distance, SeamZone zone = {});
 
 }  // namespace toile

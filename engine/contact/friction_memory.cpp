@@ -1,12 +1,8 @@
 #include "engine/contact/friction_memory.h"
 
-namespace toile {
+#include "engine/terms/contact.h"
 
-Vec3 contact_point(const Contact& contact, const Positions& x) {
-  Vec3 p = Vec3::Zero();
-  for (int k = 0; k < contact.count; ++k) p += contact.weights[k] * x[contact.nodes[k]];
-  return p;
-}
+namespace toile {
 
 void FrictionMemory::recall(std::vector<Contact>& contacts, const Positions& x) const {
   for (Contact& c : contacts) {
@@ -20,9 +16,8 @@ void FrictionMemory::recall(std::vector<Contact>& contacts, const Positions& x) 
 void FrictionMemory::store(const std::vector<Contact>& contacts, const Positions& x) {
   stretched_.clear();
   for (const Contact& c : contacts) {
-    const Vec3 p = contact_point(c, x);
-    if (c.normal.dot(p) - c.offset >= c.distance) continue;
-    const Vec3 u = p - c.anchor;
+    if (contact_gap(c, x) >= c.distance) continue;
+    const Vec3 u = contact_point(c, x) - c.anchor;
     stretched_.emplace(c.key, u - c.normal * c.normal.dot(u));
   }
 }

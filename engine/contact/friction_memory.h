@@ -20,7 +20,4 @@ class FrictionMemory {
   std::unordered_map<std::uint64_t, Vec3> stretched_;
 };
 
-/// Σ weightᵢ·x[nodeᵢ].
-Vec3 contact_point(const Contact& contact, const Positions& x);
-
 }  // namespace toile

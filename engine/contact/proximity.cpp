@@ -42,10 +42,11 @@ std::uint64_t key_of(const Contact& contact) {
   std::uint64_t side = 0;
   for (int k = 0; k < contact.count; ++k) {
     if (std::abs(contact.weights[k]) <= kFeatureTolerance) continue;
-    nodes[used++] = contact.nodes[k];
+    int at = used++;
+    for (; at > 0 && nodes[at - 1] > contact.nodes[k]; --at) nodes[at] = nodes[at - 1];
+    nodes[at] = contact.nodes[k];
     if (contact.weights[k] > 0) side += mix(static_cast<std::uint64_t>(contact.nodes[k]) + 1);
   }
-  std::sort(nodes.begin(), nodes.begin() + used);
   std::uint64_t h = mix(side + 0x9e3779b97f4a7c15ULL);
   for (int k = 0; k < used; ++k) h = mix(h ^ (static_cast<std::uint64_t>(nodes[k]) + 0x9e3779b97f4a7c15ULL * (k + 1)));
   return h;
@@ -64,10 +65,19 @@ Proximity::Proximity(CollisionMesh mesh, double list_radius) : mesh_(std::move(m
   list_radius_ = std::max(list_radius, 2.5 * largest);
 }
 
-bool Proximity::share_identity(const int* a, int na, const int* b, int nb) const {
+bool Proximity::belong_together(const int* a, int na, const int* b, int nb) const {
   for (int i = 0; i < na; ++i)
     for (int j = 0; j < nb; ++j)
       if (mesh_.identity[a[i]] == mesh_.identity[b[j]]) return true;
+  if (mesh_.seam_zone.empty() || (!mesh_.panel.empty() && mesh_.panel[a[0]] == mesh_.panel[b[0]])) return false;
+  for (int i = 0; i < na; ++i)
+    for (int j = 0; j < nb; ++j) {
+      const std::vector<int>&u = mesh_.seam_zone[a[i]], &v = mesh_.seam_zone[b[j]];
+      for (auto p = u.begin(), q = v.begin(); p != u.end() && q != v.end();) {
+        if (*p == *q) return true;
+        *p < *q ? ++p : ++q;
+      }
+    }
   return false;
 }
 
@@ -100,7 +110,7 @@ void Proximity::rebuild_list(const Positions& x) {
   vertex_triangle_ = collect(static_cast<int>(x.size()), [&](int v, std::vector<Pair>& out) {
     triangle_bvh_.query(box_of(x, &v, 1, list_radius_), [&](int t) {
       const Triangle& tri = mesh_.triangles[t];
-      if (share_identity(&v, 1, tri.data(), 3)) return;
+      if (belong_together(&v, 1, tri.data(), 3)) return;
       if (point_triangle(x[v], x[tri[0]], x[tri[1]], x[tri[2]]).squared_distance < radius2) out.push_back({v, t});
     });
   });
@@ -109,7 +119,7 @@ void Proximity::rebuild_list(const Positions& x) {
     edge_bvh_.query(box_of(x, first.data(), 2, list_radius_), [&](int f) {
       if (f <= e) return;
       const auto& second = mesh_.edges[f];
-      if (share_identity(first.data(), 2, second.data(), 2)) return;
+      if (belong_together(first.data(), 2, second.data(), 2)) return;
       if (segment_segment(x[first[0]], x[first[1]], x[second[0]], x[second[1]]).squared_distance < radius2)
         out.push_back({e, f});
     });

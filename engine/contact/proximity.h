@@ -41,7 +41,7 @@ class Proximity {
     int a, b;  // vertex and triangle, or two edges
   };
   void rebuild_list(const Positions& x);
-  bool share_identity(const int* a, int na, const int* b, int nb) const;
+  bool belong_together(const int* a, int na, const int* b, int nb) const;
 
   CollisionMesh mesh_;
   double list_radius_ = 0;

@@ -2,6 +2,7 @@
 
 #include "engine/mesh/sewing.h"
 #include "engine/monitor.h"
+#include "engine/quality/intersections.h"
 #include "engine/solve/clear_panels.h"
 #include "engine/solve/position_based.h"
 
@@ -15,8 +16,14 @@ namespace {
 constexpr double kClosedGap = 1e-4;     // [m] a seam is closed here; vertices then meet in their mean
 constexpr double kReportedGap = 1e-3;   // [m] a seam wider than this after all steps is open
 constexpr int kClosingSteps = 1500;     // at most, per garment
+constexpr int kPatience = 150;          // steps without a smaller gap, after which a stage of the closing is over
 constexpr int kRelaxingSteps = 150;     // after closing: evens out the stretch of the closing
+constexpr int kUntanglingSteps = 400;   // at most: seam zones that went through each other come free
+constexpr SeamZone kZones[] = {{3, false}, {6, true}};  // where cloth passes through cloth: wider for what stays open
 constexpr int kFallingSteps = 400;      // a skirt sewn through raised arms falls below them
+constexpr double kHangs = 5e-3;         // [m] outside the body without overhangs
+constexpr std::size_t kSampledTriangles = 20;  // every so many
+constexpr double kSlitGap = 2e-4;       // [m]
 constexpr double kListRadius = 12e-3;   // [m] wide: panels travel far
 
 struct Stage {
@@ -40,23 +47,110 @@ double body_offset(const Cloth& cloth, const SolverOptions& solver) {
   return offset;
 }
 
+/// Sleeves by their place where the pattern has no labels: a panel most of whose vertices lie nearest to a part of the
+/// body that hangs from above.
+std::vector<std::string> part_of_panels(const Cloth& cloth, int garment, const BodyFields& fields) {
+  std::vector<std::string> part(cloth.panels.size());
+  bool labelled = false;
+  for (std::size_t p = 0; p < part.size(); ++p) {
+    part[p] = cloth.panels[p].label;
+    labelled = labelled || (cloth.panels[p].garment == garment && part[p] == "arm");
+  }
+  if (labelled || !fields.without_overhangs) return part;
+  const TriangleMesh body = fields.whole->surface();
+  std::vector<char> hangs(body.vertices.size());
+  for (std::size_t i = 0; i < hangs.size(); ++i)
+    hangs[i] = fields.without_overhangs->distance(body.vertices[i]) > kHangs;
+  std::vector<int> near_arm(part.size(), 0), all(part.size(), 0);
+  for (std::size_t t = 0; t < cloth.triangles.size(); t += kSampledTriangles) {
+    const int p = cloth.triangle_panel[t];
+    if (cloth.panels[p].garment != garment) continue;
+    double best = std::numeric_limits<double>::infinity();
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < hangs.size(); ++i) {
+      const double d = (body.vertices[i] - cloth.x[cloth.triangles[t][0]]).squaredNorm();
+      if (d < best) best = d, nearest = i;
+    }
+    ++all[p];
+    near_arm[p] += hangs[nearest];
+  }
+  for (std::size_t p = 0; p < part.size(); ++p)
+    if (all[p] > 0 && 2 * near_arm[p] > all[p]) part[p] = "arm";
+  return part;
+}
+
+/// A tailor's order: first the seams that make tubes of each part (a torso, a sleeve), then those that join the parts,
+/// so that a sleeve goes through its armhole as a whole and no corner of it is caught between two layers.
+std::vector<std::vector<SeamPull>> seams_in_order(const Cloth& cloth, int garment,
+                                                  const std::vector<std::string>& part) {
+  std::vector<int> panel_of_vertex(cloth.x.size(), 0);
+  for (std::size_t t = 0; t < cloth.triangles.size(); ++t)
+    for (int v : cloth.triangles[t]) panel_of_vertex[v] = cloth.triangle_panel[t];
+  std::vector<SeamPull> within, all;
+  for (const SeamPair& pair : cloth.seam_pairs) {
+    if (cloth.vertex_garment[pair.a] != garment) continue;
+    all.push_back({pair.a, pair.b});
+    if (part[panel_of_vertex[pair.a]] == part[panel_of_vertex[pair.b]])
+      within.push_back({pair.a, pair.b});
+  }
+  if (within.size() == all.size()) return {all};
+  return {within, all};
+}
+
 /// Closes the seams of one garment while later garments wait and earlier ones give way.
-void close_seams(Stage& stage, PositionBased& solver, Cloth& cloth, int garment, double offset, double from, double to) {
-  solver.pulls.clear();
-  for (const SeamPair& pair : cloth.seam_pairs)
-    if (cloth.vertex_garment[pair.a] == garment) solver.pulls.push_back({pair.a, pair.b});
-  if (solver.pulls.empty()) return;
+void close_seams(Stage& stage, PositionBased& solver, Cloth& cloth, int garment, const std::vector<std::string>& part,
+                 double offset, double from, double to) {
   PositionBasedOptions options;
   options.body_offset = offset;
-  double gap = std::numeric_limits<double>::infinity();
-  for (int s = 0; s < kClosingSteps && gap > kClosedGap; ++s)
-    gap = stage.step(solver, cloth.x, options, from + (to - from) * 0.8 * s / kClosingSteps);
+  double gap = 0;
+  for (const std::vector<SeamPull>& pulls : seams_in_order(cloth, garment, part)) {
+    solver.set_pulls(pulls);
+    gap = std::numeric_limits<double>::infinity();
+    double best = gap;
+    int since_best = 0;
+    for (int s = 0; s < kClosingSteps && gap > kClosedGap && since_best < kPatience; ++s) {
+      gap = stage.step(solver, cloth.x, options, from + (to - from) * 0.8 * s / kClosingSteps);
+      since_best = gap < 0.99 * best ? 0 : since_best + 1;
+      best = std::min(best, gap);
+    }
+  }
   options.carry = 0.5;
   options.closing = 2e-3;
   for (int s = 0; s < kRelaxingSteps; ++s) {
     gap = stage.step(solver, cloth.x, options, from + (to - from) * (0.8 + 0.2 * s / kRelaxingSteps));
-    if (gap < kClosedGap && solver.largest_move() < 1e-4) break;
+    if (gap < kReportedGap && solver.largest_move() < 1e-4) break;
   }
+}
+
+/// Pairs of triangles that would cross if every seam were closed now.
+std::size_t crossings_when_sewn(const Cloth& cloth) {
+  const std::vector<int> root = seam_representatives(cloth);
+  Positions sum(cloth.x.size(), Vec3::Zero());
+  std::vector<int> count(cloth.x.size(), 0);
+  for (std::size_t v = 0; v < cloth.x.size(); ++v) {
+    sum[root[v]] += cloth.x[v];
+    ++count[root[v]];
+  }
+  for (std::size_t v = 0; v < cloth.x.size(); ++v)
+    if (count[v] > 0) sum[v] /= count[v];
+  std::vector<Triangle> triangles = cloth.triangles;
+  for (Triangle& t : triangles)
+    for (int& v : t) v = root[v];
+  return self_intersections(sum, triangles).size();
+}
+
+/// Goes on until nothing crosses: bending lays the two sides of a seam flat beside each other.
+std::size_t untangle(Stage& stage, PositionBased& solver, Cloth& cloth, double offset) {
+  PositionBasedOptions options;
+  options.body_offset = offset;
+  options.carry = 0.5;
+  options.bending = 0.3;
+  std::size_t crossings = crossings_when_sewn(cloth);
+  for (int s = 1; s <= kUntanglingSteps && crossings > 0; ++s) {
+    stage.step(solver, cloth.x, options, 0.9);
+    if (s % 10 == 0) crossings = crossings_when_sewn(cloth);
+  }
+  return crossings;
 }
 
 /// Seam vertices move into their common mean, never farther at once than nothing can cross.
@@ -105,6 +199,15 @@ void fall_clear(Stage& stage, Cloth& cloth, const std::vector<const BodyField*>&
   run(std::vector<const BodyField*>(cloth.x.size(), fields.whole), kFallingSteps / 4);
 }
 
+std::vector<std::string> open_seams(const Cloth& cloth) {
+  std::set<int> open;
+  for (const SeamPair& pair : cloth.seam_pairs)
+    if ((cloth.x[pair.a] - cloth.x[pair.b]).norm() > kReportedGap) open.insert(pair.seam);
+  std::vector<std::string> names;
+  for (int seam : open) names.push_back(cloth.seam_names[seam]);
+  return names;
+}
+
 }  // namespace
 
 std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth) {
@@ -149,25 +252,35 @@ Assembly assemble(const Scene& scene, Cloth apart, const BodyFields& fields, con
   const double offset = body_offset(apart, scene.solver);
   std::vector<char> keep(apart.x.size(), 0), held(apart.x.size(), 0);
   for (std::size_t g = 0; g < scene.garments.size(); ++g)
-    for (const Pin& pin : scene.garments[g].pins)
+    for (const Pin& pin : scene.garments[g].pins) {
+      // Vertices are numbered as in the sewn mesh, which is yet to come.
+      if (std::holds_alternative<PinVertices>(pin.select) && !apart.seam_pairs.empty()) continue;
       for (int v : pinned_vertices(pin, static_cast<int>(g), apart))
         (std::holds_alternative<PinAttached>(pin.hold) ? keep : held)[v] = 1;
+    }
 
   if (!apart.seam_pairs.empty()) {
     clear_panels(apart, field, offset, 0.4);
-    PositionBased solver(apart, make_collision_mesh(apart, scene.solver.contact_distance), kListRadius, field);
-    solver.keep_height = keep;
-    const int garments = static_cast<int>(scene.garments.size());
-    for (int g = 0; g < garments; ++g) {
-      for (std::size_t v = 0; v < apart.x.size(); ++v)
-        solver.mobility[v] = held[v] || apart.vertex_garment[v] > g ? 0.0 : 1.0;
-      close_seams(stage, solver, apart, g, offset, 0.9 * g / garments, 0.9 * (g + 1) / garments);
+    open_slits(apart, kSlitGap);
+    std::vector<std::vector<std::string>> parts;
+    for (std::size_t g = 0; g < scene.garments.size(); ++g)
+      parts.push_back(part_of_panels(apart, static_cast<int>(g), fields));
+    for (const SeamZone& zone : kZones) {
+      PositionBased solver(apart, make_collision_mesh(apart, scene.solver.contact_distance, zone), kListRadius, field);
+      solver.keep_height = keep;
+      const int garments = static_cast<int>(scene.garments.size());
+      for (int g = 0; g < garments; ++g) {
+        for (std::size_t v = 0; v < apart.x.size(); ++v)
+          solver.mobility[v] = held[v] || apart.vertex_garment[v] > g ? 0.0 : 1.0;
+        close_seams(stage, solver, apart, g, parts[g], offset, 0.9 * g / garments, 0.9 * (g + 1) / garments);
+      }
+      result.open_seams = open_seams(apart);
+      if (!result.open_seams.empty()) continue;
+      result.crossings = untangle(stage, solver, apart, offset);
+      result.seam_gap_max = meet(solver, apart);
+      break;
     }
-    std::set<int> open;
-    for (const SeamPair& pair : apart.seam_pairs)
-      if ((apart.x[pair.a] - apart.x[pair.b]).norm() > kReportedGap) open.insert(pair.seam);
-    for (int seam : open) result.open_seams.push_back(apart.seam_names[seam]);
-    result.seam_gap_max = meet(solver, apart);
+    if (!result.open_seams.empty()) result.seam_gap_max = seam_gap_max(apart);
   }
   result.cloth = std::move(apart);
   result.old_to_new = merge_seams(result.cloth);

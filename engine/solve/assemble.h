@@ -22,6 +22,7 @@ struct Assembly {
   Cloth cloth;                        ///< seams merged where they closed
   double seam_gap_max = 0;            ///< before merging [m]
   std::vector<std::string> open_seams;  ///< seams that did not close; empty: assembled
+  std::size_t crossings = 0;          ///< pairs of triangles that cross at the end of the sewing; 0: sound
   long steps = 0;
   std::vector<int> attached;          ///< vertices of the sewn cloth that Pin::attached holds
   std::vector<int> old_to_new;        ///< vertex of the apart cloth → of the sewn one

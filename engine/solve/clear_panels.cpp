@@ -1,5 +1,6 @@
 #include "engine/solve/clear_panels.h"
 
+#include "engine/contact/proximity.h"
 #include "engine/geometry/bvh.h"
 #include "engine/mesh/sewing.h"
 #include "engine/scene/problem.h"
@@ -131,6 +132,23 @@ void clear_panels(Cloth& apart, const std::vector<const BodyField*>& field, doub
     if (moved > 0)
       apart.warnings.push_back("panel '" + apart.panels[p].name + "' started inside the body or through another and was moved " +
                                std::to_string(static_cast<int>(moved * 1000 + 0.5)) + " mm outwards");
+  }
+}
+
+void open_slits(Cloth& apart, double gap) {
+  Proximity proximity(make_collision_mesh(apart, 0), 0);
+  proximity.update(apart.x);
+  Positions middle(apart.x.size(), Vec3::Zero());
+  std::vector<int> count(apart.x.size(), 0);
+  for (const Triangle& tri : apart.triangles)
+    for (int v : tri) {
+      middle[v] += (apart.x[tri[0]] + apart.x[tri[1]] + apart.x[tri[2]]) / 3;
+      ++count[v];
+    }
+  for (std::size_t v = 0; v < apart.x.size(); ++v) {
+    if (count[v] == 0 || proximity.displacement_bounds()[v] >= 0.4 * gap) continue;
+    const Vec3 arm = middle[v] / count[v] - apart.x[v];
+    if (arm.norm() > gap) apart.x[v] += arm.normalized() * gap;
   }
 }
 

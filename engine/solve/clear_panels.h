@@ -16,4 +16,8 @@ std::vector<const BodyField*> field_of_vertices(const Cloth& apart, const BodyFi
 /// Throws InputError (`panel_inside_body`) naming a panel that finds no free place.
 void clear_panels(Cloth& apart, const std::vector<const BodyField*>& field, double clearance, double reach);
 
+/// Pulls apart what touches itself as drawn: the edges of a slit (for a godet) lie on one another. Vertices whose
+/// features are nearer than `gap` to unrelated ones move by `gap` towards the middle of their own triangles.
+void open_slits(Cloth& apart, double gap);
+
 }  // namespace toile

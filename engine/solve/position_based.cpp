@@ -54,6 +54,36 @@ void PositionBased::project(Positions& x, const Length& c, double share) const {
   x[c.b] -= wb * correction;
 }
 
+void PositionBased::set_pulls(const std::vector<SeamPull>& pulls) {
+  pulls_ = pulls;
+  std::map<int, int> set_of;  // vertex → index of its set; sets that meet are poured together
+  std::vector<std::vector<int>> sets;
+  const auto find = [&](int v) {
+    const auto [at, fresh] = set_of.try_emplace(v, static_cast<int>(sets.size()));
+    if (fresh) sets.push_back({v});
+    return at->second;
+  };
+  for (const SeamPull& pull : pulls) {
+    const int into = find(pull.a), from = find(pull.b);
+    if (into == from) continue;
+    for (int v : sets[from]) set_of[v] = into;
+    sets[into].insert(sets[into].end(), sets[from].begin(), sets[from].end());
+    sets[from].clear();
+  }
+  meeting_.clear();
+  for (std::vector<int>& set : sets)
+    if (set.size() > 1) meeting_.push_back(std::move(set));
+}
+
+Vec3 PositionBased::mean_of(const std::vector<int>& vertices, const Positions& x) const {
+  Vec3 sum = Vec3::Zero();
+  for (int v : vertices) {
+    if (mobility[v] == 0) return x[v];
+    sum += x[v];
+  }
+  return sum / static_cast<double>(vertices.size());
+}
+
 const std::vector<double>& PositionBased::displacement_bounds(const Positions& x) {
   proximity_.update(x);
   return proximity_.displacement_bounds();
@@ -78,15 +108,15 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
     for (int v = range.begin(); v < range.end(); ++v)
       if (body_[v]) body_samples_[v] = body_[v]->sample(start[v]);
   });
-  std::vector<double> allowed(pulls.size());
-  for (std::size_t i = 0; i < pulls.size(); ++i)
-    allowed[i] = std::max(0.0, (start[pulls[i].b] - start[pulls[i].a]).norm() - options.closing);
+  std::vector<double> allowed(meeting_.size(), 0.0);  // distance from the mean
+  for (std::size_t i = 0; i < meeting_.size(); ++i) {
+    const Vec3 mean = mean_of(meeting_[i], start);
+    for (int v : meeting_[i]) allowed[i] = std::max(allowed[i], (start[v] - mean).norm() - 0.5 * options.closing);
+  }
 
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     for (const Length& c : bends_) project(x, c, options.bending);
     for (const Length& c : stretch_) project(x, c, 1.0);
-    for (std::size_t i = 0; i < pulls.size(); ++i)
-      if ((x[pulls[i].b] - x[pulls[i].a]).norm() > allowed[i]) project(x, {pulls[i].a, pulls[i].b, allowed[i]}, 1.0);
     for (const Contact& c : contacts_) {
       Vec3 p = Vec3::Zero();
       double weight = 0;
@@ -107,6 +137,15 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
     }
     for (int v = 0; v < n; ++v)
       if (keep_height[v]) x[v].y() = start[v].y();
+    // Last, since a seam has to close even in an armpit narrower than the offset.
+    for (std::size_t i = 0; i < meeting_.size(); ++i) {
+      const Vec3 mean = mean_of(meeting_[i], x);
+      for (int v : meeting_[i]) {
+        const Vec3 arm = x[v] - mean;
+        const double length = arm.norm();
+        if (mobility[v] > 0 && length > allowed[i]) x[v] = mean + arm * (allowed[i] / length);
+      }
+    }
   }
 
   largest_move_ = 0;
@@ -121,7 +160,7 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
     largest_move_ = std::max(largest_move_, carried_[v].norm());
   }
   double gap = 0;
-  for (const SeamPull& pull : pulls) gap = std::max(gap, (x[pull.b] - x[pull.a]).norm());
+  for (const SeamPull& pull : pulls_) gap = std::max(gap, (x[pull.b] - x[pull.a]).norm());
   return gap;
 }
 

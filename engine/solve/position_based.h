@@ -11,7 +11,7 @@
 
 namespace toile {
 
-/// `a` and `b` are drawn together; the gap shrinks by at most `closing` a step.
+/// `a` and `b` are to meet.
 struct SeamPull {
   int a, b;
 };
@@ -36,10 +36,12 @@ class PositionBased {
   std::vector<double> mobility;
   /// Vertices that keep their height while they slide sideways.
   std::vector<char> keep_height;
-  std::vector<SeamPull> pulls;
+
+  /// From now on vertices joined by these pairs are drawn into their common mean.
+  void set_pulls(const std::vector<SeamPull>& pulls);
 
   /// Advances x in place by one step; no two features of the cloth cross during it. Deterministic on any number of
-  /// threads. Returns the largest gap of `pulls` after the step [m].
+  /// threads. Returns the largest gap of the pulls after the step [m].
   double step(Positions& x, const PositionBasedOptions& options);
 
   /// Bounds on movement around the current x, for moves made outside step().
@@ -55,10 +57,13 @@ class PositionBased {
     double rest;
   };
   void project(Positions& x, const Length& c, double share) const;
+  Vec3 mean_of(const std::vector<int>& vertices, const Positions& x) const;
 
   Proximity proximity_;
   std::vector<const BodyField*> body_;
   std::vector<Length> stretch_, bends_;
+  std::vector<SeamPull> pulls_;
+  std::vector<std::vector<int>> meeting_;  ///< sets of vertices that are to become one
   std::vector<Contact> contacts_;
   std::vector<BodyField::Sample> body_samples_;
   Positions carried_;

@@ -22,6 +22,10 @@ struct SimulationState {
   long contacts = 0;
   const Positions* x = nullptr;
 };
+/// A guess at the share done, 0 to 1: most drapes are at rest after one to three simulated seconds, so time counts as
+/// t/(t + 1 s); it is 1 at the limit.
+double estimated_progress(const SimulationState& state, const SolverOptions& options);
+
 /// Called once per step; false cancels (throws Cancelled).
 using SimulationProgress = std::function<bool(const SimulationState&)>;
 

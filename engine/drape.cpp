@@ -1,0 +1,155 @@
+#include "engine/drape.h"
+
+#include "engine/contact/collision_mesh.h"
+#include "engine/mesh/build_cloth.h"
+#include "engine/mesh/sewing.h"
+#include "engine/parallel/thread_limit.h"
+#include "engine/quality/measure.h"
+#include "engine/quality/stretch.h"
+#include "engine/scene/check.h"
+#include "engine/solve/assemble.h"
+#include "engine/solve/preview.h"
+#include "engine/solve/simulate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+namespace toile {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Shares of a run's expected time, for the estimate of what is done.
+constexpr double kAssembled = 0.15, kDraped = 0.97;
+
+/// Passes progress on a few times a second, never falling.
+class Reporter {
+ public:
+  explicit Reporter(Monitor& monitor) : monitor_(monitor) {}
+
+  bool operator()(Progress progress) {
+    fraction_ = std::clamp(progress.fraction_done, fraction_, 1.0);
+    progress.fraction_done = fraction_;
+    return monitor_.report(progress);
+  }
+
+ private:
+  Monitor& monitor_;
+  double fraction_ = 0;
+};
+
+double smallest_edge_length(const Scene& scene) {
+  double length = 0.1;
+  for (const Garment& garment : scene.garments) length = std::min(length, garment.edge_length);
+  return length;
+}
+
+bool has_panel_of_legs(const Cloth& cloth) {
+  return std::any_of(cloth.panels.begin(), cloth.panels.end(), [](const ClothPanel& p) { return p.label == "leg"; });
+}
+
+struct Bodies {
+  std::optional<BodyField> whole, without_overhangs;
+  BodyFields fields() const {
+    return {whole ? &*whole : nullptr, without_overhangs ? &*without_overhangs : nullptr};
+  }
+};
+
+Bodies make_bodies(const Scene& scene, const Cloth& cloth) {
+  Bodies bodies;
+  if (!scene.body) return bodies;
+  bodies.whole = make_body_field(*scene.body, smallest_edge_length(scene));
+  if (has_panel_of_legs(cloth)) bodies.without_overhangs = bodies.whole->without_overhangs();
+  return bodies;
+}
+
+void fill_simulation(const Simulation& simulation, const std::vector<HeldVertex>& held, Drape& drape) {
+  Report& report = drape.report;
+  report.stop_reason = simulation.stop_reason;
+  report.status = simulation.stop_reason == "at_rest" ? "converged" : "not_converged";
+  report.simulated_time = simulation.time;
+  report.steps = simulation.steps;
+  report.newton_iterations = simulation.newton_iterations;
+  report.cg_iterations = simulation.cg_iterations;
+  report.splits = simulation.splits;
+  report.limited_vertices = simulation.limited_vertices;
+  report.kinetic_energy = simulation.kinetic_energy;
+  const StageTimes before = report.time;
+  report.time = simulation.times;
+  report.time.assemble = before.assemble;
+  std::vector<char> is_held(drape.cloth.x.size(), 0);
+  for (const HeldVertex& h : held) is_held[h.vertex] = 1;
+  measure_residual(simulation.net_force, simulation.mass, is_held, report);
+  drape.contact_force = simulation.contact_force;
+}
+
+}  // namespace
+
+Drape drape(const Scene& scene, Monitor& monitor) {
+  const Clock::time_point started = Clock::now();
+  Reporter reporter(monitor);
+  const auto stage = [&](std::string_view name, double fraction) {
+    if (!reporter({name, 0, 0, 0, fraction})) throw Cancelled{};
+  };
+  const ThreadLimit threads(scene.solver.threads);
+  check_scene(scene);
+  stage("mesh", 0);
+  Cloth apart = build_cloth(scene);
+  stage("body", 0.01);
+  const Bodies bodies = make_bodies(scene, apart);
+
+  stage("assemble", 0.02);
+  Assembly assembly = assemble(scene, std::move(apart), bodies.fields(), [&](const AssemblyState& state) {
+    return reporter({"assemble", 0, 0, state.contacts, 0.02 + (kAssembled - 0.02) * state.fraction});
+  });
+  Drape result;
+  result.cloth = std::move(assembly.cloth);
+  Report& report = result.report;
+  report.time.assemble = seconds_since(started);
+  report.seam_gap_max = assembly.seam_gap_max;
+  report.warnings = result.cloth.warnings;
+  if (bodies.whole)
+    for (const std::string& warning : bodies.whole->warnings()) report.warnings.push_back(warning);
+
+  result.contact_force.assign(result.cloth.x.size(), 0.0);
+  if (!assembly.open_seams.empty()) {
+    report.status = "failed";
+    report.stop_reason = "seams_open";
+    for (const std::string& seam : assembly.open_seams) report.warnings.push_back("seam did not close: " + seam);
+  } else if (scene.fidelity == Fidelity::preview) {
+    const std::vector<HeldVertex> held = held_vertices(scene, result.cloth, assembly.attached);
+    const PreviewOutcome outcome =
+        settle_preview(scene, result.cloth, bodies.fields().whole, held, [&](double fraction, long contacts) {
+          return reporter({"drape", 0, 0, contacts, kAssembled + (kDraped - kAssembled) * fraction});
+        });
+    report.steps = outcome.steps;
+    report.stop_reason = outcome.at_rest ? "at_rest" : "time_limit";
+    report.status = outcome.at_rest ? "converged" : "not_converged";
+    report.time.drape = seconds_since(started) - report.time.assemble;
+    report.warnings.push_back("preview: positions only, no forces; not an equilibrium of the fabric");
+  } else {
+    SimulationScene simulated{scene.solver, bodies.fields().whole, scene.body ? scene.body->friction : 0.0,
+                              held_vertices(scene, result.cloth, assembly.attached)};
+    const Simulation simulation = simulate(result.cloth, simulated, [&](const SimulationState& state) {
+      const bool relaxing = state.time < scene.solver.relaxation_time;
+      return reporter({relaxing ? "relax" : "drape", state.time, state.kinetic_energy, state.contacts,
+                       kAssembled + (kDraped - kAssembled) * estimated_progress(state, scene.solver)});
+    });
+    fill_simulation(simulation, simulated.held, result);
+    report.time.drape = seconds_since(started) - report.time.assemble;
+  }
+  stage("measure", kDraped);
+  measure_geometry(result.cloth, bodies.fields().whole, report);
+  add_warnings(result.cloth, report);
+  const TriangleStretch stretch = triangle_stretch(result.cloth.flat, result.cloth.triangles, result.cloth.x);
+  result.stretch_warp = stretch.warp;
+  result.stretch_weft = stretch.weft;
+  if (bodies.whole) result.body_mesh = bodies.whole->surface();
+  report.time.total = seconds_since(started);
+  return result;
+}
+
+}  // namespace toile

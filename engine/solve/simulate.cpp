@@ -1,0 +1,146 @@
+#include "engine/solve/simulate.h"
+
+#include "engine/contact/body_contacts.h"
+#include "engine/contact/friction_memory.h"
+#include "engine/contact/proximity.h"
+#include "engine/monitor.h"
+#include "engine/solve/backward_euler.h"
+#include "engine/solve/relaxation.h"
+#include "engine/solve/rest.h"
+#include "engine/solve/time_step.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace toile {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Finds what touches, and remembers friction from step to step.
+class Touching {
+ public:
+  Touching(const Cloth& cloth, const SimulationScene& scene)
+      : proximity_(make_collision_mesh(cloth, scene.options.contact_distance), 0.0), body_(scene.body) {
+    double friction = 0;
+    for (const Fabric& fabric : cloth.fabrics) friction = std::max(friction, fabric.friction_body);
+    body_options_.friction = scene.body_friction >= 0 ? scene.body_friction : friction;
+    body_options_.offset = scene.options.body_offset;
+    if (body_options_.offset > 0) return;
+    for (const ClothPanel& panel : cloth.panels)
+      body_options_.offset = std::max(
+          body_options_.offset, default_contact_distance(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
+  }
+
+  std::vector<Contact> detect(const Positions& x) {
+    proximity_.update(x);
+    std::vector<Contact> contacts = proximity_.contacts();
+    if (body_) {
+      const std::vector<Contact> more = body_contacts(proximity_.mesh(), *body_, x, body_options_);
+      contacts.insert(contacts.end(), more.begin(), more.end());
+    }
+    memory_.recall(contacts, x);
+    return contacts;
+  }
+
+  /// Cuts short the moves since detect() that could have crossed cloth; returns their number.
+  long limit(const Positions& from, Positions& to) const {
+    return limit_displacements(from, proximity_.displacement_bounds(), to);
+  }
+
+  void remember(const std::vector<Contact>& contacts, const Positions& x) { memory_.store(contacts, x); }
+
+ private:
+  Proximity proximity_;
+  const BodyField* body_;
+  BodyContactOptions body_options_;
+  FrictionMemory memory_;
+};
+
+bool finite(const Positions& positions) {
+  return std::all_of(positions.begin(), positions.end(), [](const Vec3& p) { return p.allFinite(); });
+}
+
+}  // namespace
+
+double estimated_progress(const SimulationState& state, const SolverOptions& options) {
+  return std::max(state.time / (state.time + 1.0), state.time / options.simulated_time_limit);
+}
+
+Simulation simulate(Cloth& cloth, const SimulationScene& scene, const SimulationProgress& progress) {
+  const SolverOptions& options = scene.options;
+  const std::size_t n = cloth.x.size();
+  Simulation result;
+  BackwardEuler solver(cloth, options);
+  Touching touching(cloth, scene);
+  TimeStep time_step(options);
+  RestDetector rest(options);
+  StepTimes step_times;
+  State state{cloth.x, Positions(n, Vec3::Zero())};
+  Kinematic kinematic{std::vector<char>(n, 0), cloth.x};
+  for (const HeldVertex& held : scene.held) kinematic.held[held.vertex] = 1;
+  const double moving_until = std::max(last_key_frame(scene.held), options.relaxation_time);
+
+  double t = 0;
+  std::vector<double> energy(n, 0.0);
+  result.stop_reason = "time_limit";
+  while (t < options.simulated_time_limit) {
+    const Clock::time_point begun = Clock::now();
+    const double h = time_step.h();
+    std::vector<Contact> contacts = touching.detect(state.x);
+    result.times.collisions += seconds_since(begun);
+    for (const HeldVertex& held : scene.held) kinematic.target[held.vertex] = position_at(held, t + h);
+
+    const Positions before = state.x;
+    const StepOutcome outcome =
+        solver.step(state, h, relaxation_factor(t, options), contacts, kinematic, step_times);
+    result.newton_iterations += outcome.newton_iterations;
+    result.cg_iterations += outcome.cg_iterations;
+    if (outcome.accepted && finite(state.x)) {
+      const long limited = touching.limit(before, state.x);
+      if (limited > 0)
+        for (std::size_t v = 0; v < n; ++v) state.v[v] = (state.x[v] - before[v]) / h;
+      result.limited_vertices += limited;
+      touching.remember(contacts, state.x);
+      if (relaxing(t, options)) std::fill(state.v.begin(), state.v.end(), Vec3::Zero());
+      t += h;
+      ++result.steps;
+      time_step.accepted();
+      energy = solver.kinetic_energy(state);
+      const bool quiet = rest.update(energy, h);
+      if (t < moving_until) rest.reset();
+      // Without early stop the run goes on, and says what it ended in.
+      result.stop_reason = quiet && t >= moving_until ? "at_rest" : "time_limit";
+      if (options.early_stop && result.stop_reason == "at_rest") break;
+    } else {
+      state.x = before;
+      time_step.rejected();
+      if (time_step.too_small()) {
+        result.stop_reason = "step_too_small";
+        break;
+      }
+    }
+    double kinetic = 0;
+    for (double e : energy) kinetic += e;
+    if (!progress({t, kinetic, rest.percentile(), h, static_cast<long>(contacts.size()), &state.x})) throw Cancelled{};
+  }
+
+  cloth.x = state.x;
+  result.time = t;
+  result.splits = time_step.splits();
+  result.times.derivatives = step_times.derivatives;
+  result.times.assembly = step_times.assembly;
+  result.times.linear_solve = step_times.linear_solve;
+  result.times.line_search = step_times.line_search;
+  for (double e : energy) result.kinetic_energy += e;
+  result.contacts = touching.detect(state.x);
+  result.net_force = solver.static_forces(state.x, result.contacts);
+  result.contact_force = solver.contact_forces(state.x, result.contacts);
+  result.mass = solver.masses();
+  return result;
+}
+
+}  // namespace toile
