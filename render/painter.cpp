@@ -15,8 +15,8 @@ constexpr double kBodyInset = 0.001;       // [m] hides that a coarse cloth's ch
 constexpr double kGroundDrop = 0.002;      // [m] below the lowest point: no fight with a body's own floor
 constexpr double kGroundReach = 2.2;       // ground's radius over the subject's
 constexpr double kSeamHalfWidth = 0.0011;  // [m]
-constexpr double kSeamHalfPixels = 0.45, kSeamStrength = 0.42;
-constexpr double kWireHalfWidth = 0.0002, kWireHalfPixels = 0.5, kWireStrength = 0.75;
+constexpr double kSeamHalfPixels = 0.55, kSeamStrength = 0.48, kSeamRim = 0.06;
+constexpr double kWireHalfWidth = 0.0002, kWireHalfPixels = 0.6, kWireStrength = 0.75;
 constexpr int kMapTexels = 256;
 
 constexpr PixelFormat kColorPixels{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};
@@ -91,16 +91,16 @@ struct Painter::Targets {
         shadow(make_texture(gl, kDepthPixels, kShadowSize, kShadowSize, GL_LINEAR, nullptr)),
         geometry(make_texture(gl, kGeometryPixels, width, height, GL_NEAREST, nullptr)),
         depth(make_texture(gl, kDepthPixels, width, height, GL_NEAREST, nullptr)),
-        raw_occlusion(make_texture(gl, kOcclusionPixels, width, height, GL_NEAREST, nullptr)),
         occlusion(make_texture(gl, kOcclusionPixels, width, height, GL_NEAREST, nullptr)),
+        light(make_texture(gl, kGeometryPixels, width, height, GL_NEAREST, nullptr)),
         resolved(make_texture(gl, kColorPixels, width, height, GL_NEAREST, nullptr)),
         final(make_texture(gl, kFinalPixels, width / scale, height / scale, GL_NEAREST, nullptr)),
         many_colors(make_renderbuffer(gl, GL_RGBA16F, samples, width, height)),
         many_depths(make_renderbuffer(gl, GL_DEPTH_COMPONENT32F, samples, width, height)),
         shadow_frame(make_framebuffer(gl, nullptr, &shadow)),
         geometry_frame(make_framebuffer(gl, &geometry, &depth)),
-        raw_occlusion_frame(make_framebuffer(gl, &raw_occlusion, nullptr)),
         occlusion_frame(make_framebuffer(gl, &occlusion, nullptr)),
+        light_frame(make_framebuffer(gl, &light, nullptr)),
         many_frame(make_multisampled_framebuffer(gl, many_colors, many_depths)),
         resolved_frame(make_framebuffer(gl, &resolved, nullptr)),
         final_frame(make_framebuffer(gl, &final, nullptr)) {
@@ -108,8 +108,8 @@ struct Painter::Targets {
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   }
   int width, height, scale;
-  GlObject shadow, geometry, depth, raw_occlusion, occlusion, resolved, final, many_colors, many_depths;
-  GlObject shadow_frame, geometry_frame, raw_occlusion_frame, occlusion_frame, many_frame, resolved_frame, final_frame;
+  GlObject shadow, geometry, depth, occlusion, light, resolved, final, many_colors, many_depths;
+  GlObject shadow_frame, geometry_frame, occlusion_frame, light_frame, many_frame, resolved_frame, final_frame;
 };
 
 Painter::Painter(Backend backend, int width, int height)
@@ -118,7 +118,7 @@ Painter::Painter(Backend backend, int width, int height)
       depth_(make_program(gl_, "mesh_vertex", {"depth"})),
       geometry_(make_program(gl_, "mesh_vertex", {"geometry"})),
       occlusion_(make_program(gl_, "screen_vertex", {"occlusion"})),
-      blur_(make_program(gl_, "screen_vertex", {"blur"})),
+      light_(make_program(gl_, "screen_vertex", {"light"})),
       background_(make_program(gl_, "screen_vertex", {"backdrop", "background"})),
       surface_(make_program(gl_, "mesh_vertex", {"backdrop", "surface"})),
       encode_(make_program(gl_, "screen_vertex", {"encode"})) {
@@ -153,7 +153,7 @@ std::vector<std::uint8_t> Painter::paint(const Subject& subject, const PictureOp
   gl_.Enable(GL_DEPTH_TEST);
   draw_shadow_map(scene, targets);
   draw_geometry(scene, targets);
-  draw_occlusion(scene, targets);
+  draw_light(scene, targets);
   draw_surfaces(scene, targets, options, scale.has_value());
   std::vector<std::uint8_t> pixels = encode(targets, options.width, options.height);
   if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR)
@@ -215,19 +215,36 @@ void Painter::draw_geometry(const Scene& scene, const Targets& targets) const {
   draw_mesh(geometry_, scene.ground, 0);
 }
 
-void Painter::draw_occlusion(const Scene& scene, const Targets& targets) const {
+void Painter::draw_light(const Scene& scene, const Targets& targets) const {
   gl_.Disable(GL_DEPTH_TEST);
   gl_.BindVertexArray(screen_.id());
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, targets.raw_occlusion_frame.id());
+  const Camera& camera = scene.camera;
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, targets.occlusion_frame.id());
   Uniforms(gl_, occlusion_)
-      .set("u_tangent", scene.camera.tangent_x, scene.camera.tangent_y)
-      .set("u_shift", scene.camera.shift_x, 0)
+      .set("u_tangent", camera.tangent_x, camera.tangent_y)
+      .set("u_shift", camera.shift_x, 0)
       .set("u_size", targets.width, targets.height)
       .set("u_radius", std::min(kOcclusionRadius, kOcclusionShare * scene.radius))
       .texture("u_geometry", 0, targets.geometry);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, targets.occlusion_frame.id());
-  Uniforms(gl_, blur_).texture("u_geometry", 0, targets.geometry).texture("u_occlusion", 1, targets.raw_occlusion);
+
+  Eigen::Matrix4f to_texture = Eigen::Matrix4f::Identity();
+  to_texture.topLeftCorner<3, 3>() *= 0.5f;
+  to_texture.topRightCorner<3, 1>().setConstant(0.5f);
+  const Eigen::Matrix4f to_light = to_texture * scene.light.projection * scene.light.view * camera.view.inverse();
+  const Vec3 key(scene.light.towards.dot(camera.right), scene.light.towards.dot(camera.up),
+                 scene.light.towards.dot(camera.back));
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, targets.light_frame.id());
+  Uniforms(gl_, light_)
+      .set("u_tangent", camera.tangent_x, camera.tangent_y)
+      .set("u_shift", camera.shift_x, 0)
+      .set("u_size", targets.width, targets.height)
+      .set("u_key", key)
+      .set("u_light", to_light)
+      .set("u_shadow_texel", 2 * 1.02 * scene.radius / kShadowSize)
+      .texture("u_geometry", 0, targets.geometry)
+      .texture("u_occlusion", 1, targets.occlusion)
+      .texture("u_shadow", 2, targets.shadow);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
   gl_.Enable(GL_DEPTH_TEST);
 }
@@ -244,28 +261,22 @@ void Painter::draw_surfaces(const Scene& scene, const Targets& targets, const Pi
 
   const bool wire = options.overlay == Overlay::wireframe;
   const Camera& camera = scene.camera;
-  Eigen::Matrix4f to_texture = Eigen::Matrix4f::Identity();
-  to_texture.topLeftCorner<3, 3>() *= 0.5f;
-  to_texture.topRightCorner<3, 1>().setConstant(0.5f);
   const Uniforms surface(gl_, surface_);
   surface.set("u_view", camera.view)
       .set("u_projection", camera.projection)
-      .set("u_light", Eigen::Matrix4f(to_texture * scene.light.projection * scene.light.view))
       .set("u_size", targets.width, targets.height)
       .set("u_eye", camera.eye)
       .set("u_key", scene.light.towards)
       .set("u_fill", scene.light.fill)
       .set("u_up", Vec3((0.85 * Vec3::UnitY() + 0.15 * camera.up).normalized()))
-      .set("u_shadow_texel", 2 * 1.02 * scene.radius / kShadowSize)
       .set("u_ground_centre", scene.ground_centre)
       .set("u_ground_radius", scene.ground_radius)
       .set("u_line_width", wire ? kWireHalfWidth : kSeamHalfWidth)
       .set("u_line_pixels", wire ? kWireHalfPixels : kSeamHalfPixels)
       .set("u_line_strength", wire ? kWireStrength : kSeamStrength)
-      .texture("u_geometry", 0, targets.geometry)
-      .texture("u_occlusion", 1, targets.occlusion)
-      .texture("u_color_map", 2, scene.color_map)
-      .texture("u_shadow", 3, targets.shadow);
+      .set("u_rim_strength", wire ? 0.0 : kSeamRim)
+      .texture("u_light", 0, targets.light)
+      .texture("u_color_map", 1, scene.color_map);
   surface.set("u_material", 0).set("u_paint", mapped ? 1 : 0);
   draw_mesh(surface_, scene.garment, 0);
   surface.set("u_material", 1).set("u_paint", 0);

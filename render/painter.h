@@ -29,13 +29,13 @@ class Painter {
   void draw_mesh(const GlObject& program, const VertexBuffer& mesh, double inset) const;
   void draw_shadow_map(const Scene& scene, const Targets& targets) const;
   void draw_geometry(const Scene& scene, const Targets& targets) const;
-  void draw_occlusion(const Scene& scene, const Targets& targets) const;
+  void draw_light(const Scene& scene, const Targets& targets) const;
   void draw_surfaces(const Scene& scene, const Targets& targets, const PictureOptions& options, bool mapped) const;
   std::vector<std::uint8_t> encode(const Targets& targets, int width, int height) const;
 
   std::unique_ptr<Context> context_;
   Gl gl_;
-  GlObject depth_, geometry_, occlusion_, blur_, background_, surface_, encode_, screen_;
+  GlObject depth_, geometry_, occlusion_, light_, background_, surface_, encode_, screen_;
 };
 
 }  // namespace toile

@@ -1,5 +1,5 @@
-// Shading of fabric, body and ground in linear RGB: a key light with soft shadows, a fill light, a hemisphere of ambient
-// light dimmed by the occlusion, and the sheen of fibres at grazing angles.
+// Shading of fabric, body and ground in linear RGB: a key light with soft shadows and a hemisphere of ambient light
+// dimmed by the occlusion (both from light.glsl), a fill light, and the sheen of fibres at grazing angles.
 in vec3 v_position;
 in vec3 v_normal;
 in vec3 v_color;
@@ -10,57 +10,34 @@ uniform int u_material;      // 0 fabric, 1 body, 2 ground
 uniform int u_paint;         // 0 own colour, 1 colour map of the scalar
 uniform float u_line_width;  // [m] of the marked edges
 uniform float u_line_pixels; // least width [px]
-uniform float u_line_strength;
+uniform float u_line_strength; // how much darker
+uniform float u_rim_strength;  // how much brighter beside the line
 uniform vec3 u_eye;          // subject frame
 uniform vec3 u_key;          // towards the light
 uniform vec3 u_fill;
 uniform vec3 u_up;           // hemisphere's pole
-uniform mat4 u_light;        // subject frame to the shadow map's texture space
-uniform float u_shadow_texel;  // [m]
 uniform vec3 u_ground_centre;
 uniform float u_ground_radius;
-uniform sampler2D u_geometry;
-uniform sampler2D u_occlusion;
+uniform sampler2D u_light;     // of light.glsl
 uniform sampler2D u_color_map;
-uniform sampler2DShadow u_shadow;
 out vec4 o_color;
 
-const float kKey = 0.92, kFill = 0.16, kSky = 0.42, kEarth = 0.22, kSheen = 0.10;
+const float kKey = 1.04, kFill = 0.14, kSky = 0.37, kEarth = 0.16, kSheen = 0.10;
 const float kMapKey = 0.34, kMapBase = 0.68;  // coloured overlays: flatter light, so that colours stay those of the legend
 const float kShoulder = 0.80;                 // above it, light is compressed instead of clipped
 const float kGroundShadow = 0.74, kGroundContact = 0.5;  // darkest factor of each on the ground
-const int kShadowReach = 2;                   // 5 x 5 taps, each a bilinear comparison
 
-float key_light(vec3 n) {
-  float lit = dot(n, u_key);
-  // Off the surface by more where the light grazes it: no self-shadow stripes.
-  vec3 at = v_position + n * u_shadow_texel * (1.5 + 3.0 * (1.0 - clamp(lit, 0.0, 1.0)));
-  vec3 map = (u_light * vec4(at, 1.0)).xyz;
-  vec2 texel = 1.6 / vec2(textureSize(u_shadow, 0));
-  float reach = float(kShadowReach);
-  float corners = texture(u_shadow, vec3(map.xy + vec2(-reach, -reach) * texel, map.z)) +
-                  texture(u_shadow, vec3(map.xy + vec2(reach, -reach) * texel, map.z)) +
-                  texture(u_shadow, vec3(map.xy + vec2(-reach, reach) * texel, map.z)) +
-                  texture(u_shadow, vec3(map.xy + vec2(reach, reach) * texel, map.z));
-  if (corners == 0.0 || corners == 4.0) return 0.25 * corners;  // away from a shadow's edge: four of five pixels
-  float sum = 0.0;
-  for (int y = -kShadowReach; y <= kShadowReach; ++y)
-    for (int x = -kShadowReach; x <= kShadowReach; ++x)
-      sum += texture(u_shadow, vec3(map.xy + vec2(x, y) * texel, map.z));
-  return sum / float((2 * kShadowReach + 1) * (2 * kShadowReach + 1));
-}
-
-// The occlusion of this surface, not of the one behind it that shares the pixel.
-float openness() {
+// Openness and key light of this surface, not of the one behind it that shares the pixel.
+vec2 light_here() {
   ivec2 centre = ivec2(gl_FragCoord.xy);
-  ivec2 last = textureSize(u_occlusion, 0) - 1;
-  float sum = 0.0, weights = 0.0;
+  ivec2 last = textureSize(u_light, 0) - 1;
+  vec2 sum = vec2(0.0);
+  float weights = 0.0;
   const ivec2 around[5] = ivec2[5](ivec2(0), ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
   for (int i = 0; i < 5; ++i) {
-    ivec2 at = clamp(centre + around[i], ivec2(0), last);
-    float away = abs(texelFetch(u_geometry, at, 0).w - v_distance);
-    float weight = 1e-5 + exp(-away * 150.0);
-    sum += weight * texelFetch(u_occlusion, at, 0).r;
+    vec4 light = texelFetch(u_light, clamp(centre + around[i], ivec2(0), last), 0);
+    float weight = 1e-5 + (i == 0 ? 4.0 : 1.0) * exp(-150.0 * abs(light.w - v_distance));
+    sum += weight * light.xy;
     weights += weight;
   }
   return sum / weights;
@@ -76,9 +53,8 @@ void main() {
     float fade = 1.0 - smoothstep(0.20, 1.0, length(v_position - u_ground_centre) / u_ground_radius);
     o_color = vec4(backdrop(gl_FragCoord.xy), 1.0);
     if (fade > 0.0) {
-      float shade = mix(1.0, mix(kGroundShadow, 1.0, key_light(vec3(0, 1, 0))), fade);
-      float contact = mix(1.0, mix(kGroundContact, 1.0, openness()), fade);
-      o_color.rgb *= shade * contact;
+      vec2 light = light_here();
+      o_color.rgb *= mix(1.0, mix(kGroundContact, 1.0, light.x) * mix(kGroundShadow, 1.0, light.y), fade);
     }
     return;
   }
@@ -100,9 +76,9 @@ void main() {
   // A seam is a small valley between two rolls: a bright rim next to the dark line.
   vec3 rims = exp(-pow((v_edge - 3.0 * u_line_width) / (1.2 * u_line_width), vec3(2.0)));
   float rim = max(rims.x, max(rims.y, rims.z)) * (1.0 - line);
-  float open = openness();
-  float lit = max(dot(n, u_key), 0.0);
-  if (lit > 0.0) lit *= key_light(n);
+  vec2 light = light_here();
+  float open = light.x;
+  float lit = light.y * max(dot(n, u_key), 0.0);
   float fill = max(dot(n, u_fill), 0.0);
   float ambient = mix(kEarth, kSky, 0.5 + 0.5 * dot(n, u_up)) * open * open;
   vec3 color;
@@ -111,7 +87,7 @@ void main() {
   } else {
     float sheen = u_material == 0 ? kSheen * pow(1.0 - max(dot(n, eye), 0.0), 3.0) * open : 0.0;
     color = albedo * (kKey * lit + kFill * fill * open + ambient) + sheen * mix(albedo, vec3(1.0), 0.35);
-    color *= 1.0 + 0.06 * rim * step(u_line_strength, 0.6);
+    color *= 1.0 + u_rim_strength * rim;
   }
   color *= 1.0 - u_line_strength * line;
   o_color = vec4(shoulder(color), 1.0);
