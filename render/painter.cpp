@@ -175,7 +175,7 @@ VertexBuffer Painter::upload(const std::vector<Corner>& corners) const {
   const auto attribute = [&](GLuint at, GLint size, GLenum type, std::size_t offset) {
     gl_.EnableVertexAttribArray(at);
     gl_.VertexAttribPointer(at, size, type, type == GL_UNSIGNED_BYTE, sizeof(Corner),
-                            reinterpret_cast<const void*>(offset));
+                            reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): OpenGL
   };
   attribute(0, 3, GL_FLOAT, offsetof(Corner, position));
   attribute(1, 3, GL_FLOAT, offsetof(Corner, normal));
