@@ -12,10 +12,8 @@ namespace toile {
 
 namespace {
 
-/// Half the width of the fine band in fine cells: the stencil of a cell that the surface crosses stays within it.
-constexpr double kFineBand = 2.0;
-/// Fine nodes farther away than this many fine cells take the coarse grid's value: no cell that matters reads them.
-constexpr double kExactBand = 5.0;
+/// Half the width of the fine band in fine cells: what the stencil of a cell that the surface crosses reads, and more.
+constexpr double kBand = 3.0;
 
 /// Exact signed distances along lines of nodes: the last answer bounds the next search, and the sign is asked for again
 /// only where the surface is near enough to have been crossed.
@@ -23,7 +21,9 @@ class Walker {
  public:
   Walker(const Bvh& bvh, const SoupSolid& solid) : bvh_(bvh), solid_(solid) {}
 
-  double signed_distance(const Vec3& p) {
+  /// `hint`: a triangle that is thought near, or -1.
+  double signed_distance(const Vec3& p, int hint = -1) {
+    if (hint >= 0) triangle_ = hint;
     const double limit = triangle_ < 0 ? std::numeric_limits<double>::infinity() : squared(triangle_, p);
     const int nearer = bvh_.nearest(p, limit, [&](int t) { return squared(t, p); });
     const double distance = std::sqrt(nearer < 0 ? limit : squared(nearer, p));
@@ -79,6 +79,25 @@ Bvh triangle_bvh(const SoupSolid& solid) {
   return Bvh(boxes);
 }
 
+/// 0 … n − 1, or back in every other line, so that each node is next to the one before it.
+int to_and_fro(int i, int line, int n) { return line % 2 == 0 ? i : n - 1 - i; }
+
+/// Takes the leaf's distances as bounds, and signs what it finds.
+void make_exact(BandLeaf& leaf, const Vec3& origin, double voxel, Walker walker) {
+  constexpr int n = BandLeaf::kSide;
+  for (int i = 0; i < n; ++i) {
+    for (int jj = 0; jj < n; ++jj) {
+      const int j = to_and_fro(jj, i, n);
+      for (int kk = 0; kk < n; ++kk) {
+        const int k = to_and_fro(kk, i * n + jj, n), at = BandLeaf::index(i, j, k);
+        if (leaf.triangle[at] < 0) continue;
+        const Vec3 point = origin + voxel * Vec3(leaf.first[0] + i, leaf.first[1] + j, leaf.first[2] + k);
+        leaf.distance[at] = static_cast<float>(walker.signed_distance(point, leaf.triangle[at]));
+      }
+    }
+  }
+}
+
 double mix(double a, double b, double t) { return a + t * (b - a); }
 
 }  // namespace
@@ -90,7 +109,7 @@ DistanceGrid::DistanceGrid(const SoupSolid& solid, const GridSettings& settings)
     for (int v : t) box.extend(solid.vertices[v]);
   }
   box = box.inflated(settings.margin);
-  // Bricks tile the coarse grid's box, which begins and ends on the border of a brick.
+  // Bricks tile the coarse grid's box from its lower corner.
   const double brick_size = kBrick * settings.fine_spacing;
   coarse_.origin = box.lower;
   coarse_.spacing = settings.coarse_spacing;
@@ -98,59 +117,64 @@ DistanceGrid::DistanceGrid(const SoupSolid& solid, const GridSettings& settings)
     bricks_[k] = static_cast<int>(std::ceil((box.upper[k] - box.lower[k]) / brick_size));
     coarse_.nodes[k] = std::max(4, static_cast<int>(std::ceil(bricks_[k] * brick_size / coarse_.spacing)) + 1);
   }
+  fill_coarse(bvh, solid);
+  std::vector<BandLeaf> leaves =
+      narrow_band(solid.vertices, solid.triangles, coarse_.origin, settings.fine_spacing, kBand);
+  tbb::parallel_for(size_t(0), leaves.size(), [&](size_t n) {
+    make_exact(leaves[n], coarse_.origin, settings_.fine_spacing, Walker(bvh, solid));
+  });
+  fill_bricks(leaves);
+}
+
+void DistanceGrid::fill_coarse(const Bvh& bvh, const SoupSolid& solid) {
   coarse_values_.resize(coarse_.size());
   tbb::parallel_for(0, coarse_.nodes[2], [&](int k) {
     Walker walker(bvh, solid);
     for (int j = 0; j < coarse_.nodes[1]; ++j) {
       for (int i = 0; i < coarse_.nodes[0]; ++i) {
-        // To and fro, so that each node is next to the one before it.
-        const int forth = j % 2 == 0 ? i : coarse_.nodes[0] - 1 - i;
+        const int forth = to_and_fro(i, j, coarse_.nodes[0]);
         coarse_values_[coarse_.index(forth, j, k)] =
             static_cast<float>(walker.signed_distance(coarse_.point(forth, j, k)));
       }
     }
   });
+}
 
+void DistanceGrid::fill_bricks(const std::vector<BandLeaf>& leaves) {
   brick_index_.assign(static_cast<size_t>(bricks_[0]) * bricks_[1] * bricks_[2], -1);
-  const auto corner_of = [&](int b) {
-    const int i = b % bricks_[0], j = b / bricks_[0] % bricks_[1], k = b / bricks_[0] / bricks_[1];
-    return Vec3(coarse_.origin + brick_size * Vec3(i, j, k));
-  };
-  const double reach = 0.5 * std::sqrt(3.0) * brick_size + kFineBand * settings.fine_spacing;
-  tbb::parallel_for(0, static_cast<int>(brick_index_.size()), [&](int b) {
-    const Vec3 center = corner_of(b).array() + 0.5 * brick_size;
-    const int found = bvh.nearest(center, reach * reach, [&](int t) {
-      const auto& [x, y, z] = solid.triangles[t];
-      return point_triangle(center, solid.vertices[x], solid.vertices[y], solid.vertices[z]).squared_distance;
-    });
-    brick_index_[b] = found >= 0 ? 0 : -1;
-  });
-  std::vector<int> kept;
-  for (int b = 0; b < static_cast<int>(brick_index_.size()); ++b) {
-    if (brick_index_[b] < 0) continue;
-    brick_index_[b] = static_cast<int>(kept.size());
-    kept.push_back(b);
+  for (size_t n = 0; n < leaves.size(); ++n) {
+    const auto& [i, j, k] = leaves[n].first;
+    brick_index_[(static_cast<size_t>(k / kBrick) * bricks_[1] + j / kBrick) * bricks_[0] + i / kBrick] =
+        static_cast<int>(n);
   }
   constexpr int kNodes = kBrickNodes * kBrickNodes * kBrickNodes;
-  brick_values_.resize(kept.size() * kNodes);
-  tbb::parallel_for(0, static_cast<int>(kept.size()), [&](int n) {
-    const Vec3 first = corner_of(kept[n]).array() - settings.fine_spacing;
-    float* values = &brick_values_[static_cast<size_t>(n) * kNodes];
-    Walker walker(bvh, solid);
-    for (int k = 0; k < kBrickNodes; ++k) {
-      for (int jj = 0; jj < kBrickNodes; ++jj) {
-        const int j = k % 2 == 0 ? jj : kBrickNodes - 1 - jj;
-        for (int ii = 0; ii < kBrickNodes; ++ii) {
-          const int i = (k * kBrickNodes + jj) % 2 == 0 ? ii : kBrickNodes - 1 - ii;
-          const Vec3 point = first + settings.fine_spacing * Vec3(i, j, k);
-          const double about = trilinear(coarse_cell_at(into_coarse(point)));
-          const bool far = std::abs(about) > kExactBand * settings.fine_spacing;
-          values[(k * kBrickNodes + j) * kBrickNodes + i] =
-              static_cast<float>(far ? about : walker.signed_distance(point));
+  brick_values_.resize(leaves.size() * kNodes);
+  tbb::parallel_for(size_t(0), leaves.size(), [&](size_t n) {
+    float* value = &brick_values_[n * kNodes];
+    const auto& first = leaves[n].first;
+    for (int k = first[2] - 1; k < first[2] - 1 + kBrickNodes; ++k) {
+      for (int j = first[1] - 1; j < first[1] - 1 + kBrickNodes; ++j) {
+        for (int i = first[0] - 1; i < first[0] - 1 + kBrickNodes; ++i) {
+          *value++ = fine_value(leaves, {i, j, k});
         }
       }
     }
   });
+}
+
+float DistanceGrid::fine_value(const std::vector<BandLeaf>& leaves, const std::array<int, 3>& node) const {
+  std::array<int, 3> brick;
+  bool within = true;
+  for (int k = 0; k < 3; ++k) {
+    brick[k] = node[k] / kBrick;
+    within = within && node[k] >= 0 && brick[k] < bricks_[k];
+  }
+  if (const int n = within ? brick_at(brick) : -1; n >= 0) {
+    const int at = BandLeaf::index(node[0] % kBrick, node[1] % kBrick, node[2] % kBrick);
+    if (leaves[n].triangle[at] >= 0) return leaves[n].distance[at];
+  }
+  const Vec3 point = coarse_.origin + settings_.fine_spacing * Vec3(node[0], node[1], node[2]);
+  return static_cast<float>(trilinear(coarse_cell_at(into_coarse(point))));
 }
 
 Vec3 DistanceGrid::into_coarse(const Vec3& p) const {
@@ -166,7 +190,7 @@ DistanceGrid::Cell DistanceGrid::cell_at(const Vec3& p) const {
     cell[k] = std::clamp(static_cast<int>(fine[k]), 0, bricks_[k] * kBrick - 1);
     brick[k] = cell[k] / kBrick;
   }
-  const int index = brick_index_[(static_cast<size_t>(brick[2]) * bricks_[1] + brick[1]) * bricks_[0] + brick[0]];
+  const int index = brick_at(brick);
   if (index >= 0) {
     constexpr int n = kBrickNodes;
     const size_t first =

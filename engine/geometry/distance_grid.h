@@ -1,7 +1,9 @@
 #pragma once
-// A signed distance sampled on two regular grids: fine bricks around the surface, a coarse grid everywhere else.
+// A signed distance sampled on two regular grids: OpenVDB's narrow band around the surface, a coarse grid everywhere
+// else.
 
 #include "engine/geometry/box.h"
+#include "engine/geometry/narrow_band.h"
 #include "engine/geometry/solid.h"
 #include "engine/types.h"
 
@@ -9,6 +11,8 @@
 #include <vector>
 
 namespace toile {
+
+class Bvh;
 
 /// Samples of a function on the nodes origin + spacing·(i, j, k); i runs fastest.
 struct Lattice {
@@ -31,15 +35,17 @@ struct SoupSolid {
 
 struct GridSettings {
   double fine_spacing = 0.005, coarse_spacing = 0.01;  ///< [m]
-  double margin = 0.08;                                ///< of the coarse grid around the solid [m]
+  double margin = 0.08;  ///< of the coarse grid around the solid [m], at least four fine cells
 };
 
-/// Distances at the nodes are exact (a BVH over the triangles); values between are trilinear. The gradient is the
-/// trilinear interpolation of the nodes' central differences: unlike the gradient of the trilinear interpolant it is
-/// continuous within a grid, at 32 nodes read instead of 8. The fine grid is exact within five of its cells from the
-/// surface and continues the coarse one beyond; where it ends, the gradient jumps by the coarse grid's error. Kept as
-/// bricks of our own, not as an OpenVDB tree, so that a sample reads one contiguous block (tests/engine/geometry prints
-/// its cost). Immutable; concurrent calls are safe. Deterministic on any number of threads.
+/// The fine grid is the narrow band that OpenVDB's mesh conversion finds (narrow_band.h): its leaves, its distances
+/// made exact by a BVH search that they bound, its sign from SoupSolid::inside, asked only where no neighbour of the
+/// same side is known. Values between nodes are trilinear. The gradient is the trilinear interpolation of the nodes'
+/// central differences: unlike the gradient of the trilinear interpolant it is continuous within a grid, at 32 nodes
+/// read instead of 8. Voxels of a leaf beyond the band continue the coarse grid; where the leaves end, the gradient
+/// jumps by the coarse grid's error. Leaves are copied with the nodes around them, so that a sample reads one
+/// contiguous block instead of walking OpenVDB's tree up to eight times (tests/engine/geometry prints its cost).
+/// Immutable; concurrent calls are safe. Deterministic on any number of threads.
 class DistanceGrid {
  public:
   DistanceGrid(const SoupSolid& solid, const GridSettings& settings);
@@ -60,9 +66,16 @@ class DistanceGrid {
     Vec3 at;
     double spacing;
   };
-  static constexpr int kBrick = 16;               ///< cells along a brick's edge
+  static constexpr int kBrick = BandLeaf::kSide;  ///< cells along a brick's edge: a brick holds a leaf
   static constexpr int kBrickNodes = kBrick + 3;  ///< with the nodes that the stencils of its outermost cells read
 
+  void fill_coarse(const Bvh& bvh, const SoupSolid& solid);
+  void fill_bricks(const std::vector<BandLeaf>& leaves);
+  float fine_value(const std::vector<BandLeaf>& leaves, const std::array<int, 3>& node) const;
+  /// Of a brick; -1 where there is none.
+  int brick_at(const std::array<int, 3>& brick) const {
+    return brick_index_[(static_cast<size_t>(brick[2]) * bricks_[1] + brick[1]) * bricks_[0] + brick[0]];
+  }
   Cell cell_at(const Vec3& point) const;
   Cell coarse_cell_at(const Vec3& point) const;
   static double trilinear(const Cell& cell);

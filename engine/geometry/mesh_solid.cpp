@@ -15,8 +15,8 @@ constexpr double kFinest = 0.002, kWidest = 0.006;  ///< [m]
 constexpr double kMostFineNodes = 25e6;             ///< 100 MB
 constexpr double kMostCoarseNodes = 4e6;            ///< 16 MB
 constexpr double kMargin = 0.08;                    ///< [m], the exterior band
-/// Nodes per cell of surface area, as met on bodies: bricks are about twelve cells thick, their rims shared.
-constexpr double kNodesPerArea = 35;
+/// Nodes per cell of surface area, as met on bodies, with those that bricks share.
+constexpr double kNodesPerArea = 40;
 
 GridSettings settings_for(const TriangleMesh& mesh, double edge_length) {
   const Box box = bounding_box(mesh.vertices);
@@ -26,11 +26,11 @@ GridSettings settings_for(const TriangleMesh& mesh, double edge_length) {
     area += 0.5 * (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm();
   }
   GridSettings settings;
-  settings.margin = kMargin;
   settings.fine_spacing =
       std::max(std::clamp(edge_length / 3, kFinest, kWidest), std::sqrt(kNodesPerArea * area / kMostFineNodes));
+  settings.margin = std::max(kMargin, 4 * settings.fine_spacing);
   settings.coarse_spacing =
-      std::max(2.5 * settings.fine_spacing, std::cbrt((size.array() + 2 * kMargin).prod() / kMostCoarseNodes));
+      std::max(2.5 * settings.fine_spacing, std::cbrt((size.array() + 2 * settings.margin).prod() / kMostCoarseNodes));
   return settings;
 }
 
