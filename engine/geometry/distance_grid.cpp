@@ -14,6 +14,10 @@ namespace {
 
 /// Half the width of the fine band in fine cells: what the stencil of a cell that the surface crosses reads, and more.
 constexpr double kBand = 3.0;
+/// The coarse grid is refined from every fourth node on. Exterior nodes farther away than this many strides take the
+/// mean of those around them: at 12.5 mm beyond 50 mm, where it is right within about a millimetre.
+constexpr int kFirstStride = 4;
+constexpr double kFarFromSurface = 4;
 
 /// Exact signed distances along lines of nodes: the last answer bounds the next search, and the sign is asked for again
 /// only where the surface is near enough to have been crossed.
@@ -115,7 +119,8 @@ DistanceGrid::DistanceGrid(const SoupSolid& solid, const GridSettings& settings)
   coarse_.spacing = settings.coarse_spacing;
   for (int k = 0; k < 3; ++k) {
     bricks_[k] = static_cast<int>(std::ceil((box.upper[k] - box.lower[k]) / brick_size));
-    coarse_.nodes[k] = std::max(4, static_cast<int>(std::ceil(bricks_[k] * brick_size / coarse_.spacing)) + 1);
+    coarse_.nodes[k] =
+        kFirstStride * static_cast<int>(std::ceil(bricks_[k] * brick_size / (kFirstStride * coarse_.spacing))) + 1;
   }
   fill_coarse(bvh, solid);
   std::vector<BandLeaf> leaves =
@@ -128,16 +133,37 @@ DistanceGrid::DistanceGrid(const SoupSolid& solid, const GridSettings& settings)
 
 void DistanceGrid::fill_coarse(const Bvh& bvh, const SoupSolid& solid) {
   coarse_values_.resize(coarse_.size());
-  tbb::parallel_for(0, coarse_.nodes[2], [&](int k) {
-    Walker walker(bvh, solid);
-    for (int j = 0; j < coarse_.nodes[1]; ++j) {
-      for (int i = 0; i < coarse_.nodes[0]; ++i) {
-        const int forth = to_and_fro(i, j, coarse_.nodes[0]);
-        coarse_values_[coarse_.index(forth, j, k)] =
-            static_cast<float>(walker.signed_distance(coarse_.point(forth, j, k)));
+  for (int stride = kFirstStride; stride >= 1; stride /= 2) {
+    const auto is_known = [&](int i, int j, int k) { return stride < kFirstStride && (i | j | k) % (2 * stride) == 0; };
+    tbb::parallel_for(0, (coarse_.nodes[2] - 1) / stride + 1, [&](int layer) {
+      Walker walker(bvh, solid);
+      const int k = stride * layer, columns = (coarse_.nodes[0] - 1) / stride + 1;
+      for (int j = 0; j < coarse_.nodes[1]; j += stride) {
+        for (int column = 0; column < columns; ++column) {
+          const int i = stride * to_and_fro(column, j / stride, columns);
+          if (is_known(i, j, k)) continue;
+          float& value = coarse_values_[coarse_.index(i, j, k)];
+          if (stride < kFirstStride) {
+            value = mean_around({i, j, k}, stride);
+            if (value > kFarFromSurface * stride * coarse_.spacing) continue;
+          }
+          value = static_cast<float>(walker.signed_distance(coarse_.point(i, j, k)));
+        }
       }
-    }
-  });
+    });
+  }
+}
+
+float DistanceGrid::mean_around(const std::array<int, 3>& node, int stride) const {
+  std::array<int, 3> reach;
+  for (int k = 0; k < 3; ++k) reach[k] = node[k] % (2 * stride);
+  float sum = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    sum += coarse_values_[coarse_.index(node[0] + (corner & 1 ? reach[0] : -reach[0]),
+                                        node[1] + (corner & 2 ? reach[1] : -reach[1]),
+                                        node[2] + (corner & 4 ? reach[2] : -reach[2]))];
+  }
+  return sum / 8;
 }
 
 void DistanceGrid::fill_bricks(const std::vector<BandLeaf>& leaves) {

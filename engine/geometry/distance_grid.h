@@ -70,6 +70,8 @@ class DistanceGrid {
   static constexpr int kBrickNodes = kBrick + 3;  ///< with the nodes that the stencils of its outermost cells read
 
   void fill_coarse(const Bvh& bvh, const SoupSolid& solid);
+  /// Of the nodes `stride` away along each axis that lies between nodes of twice the stride.
+  float mean_around(const std::array<int, 3>& node, int stride) const;
   void fill_bricks(const std::vector<BandLeaf>& leaves);
   float fine_value(const std::vector<BandLeaf>& leaves, const std::array<int, 3>& node) const;
   /// Of a brick; -1 where there is none.

@@ -192,13 +192,18 @@ TEST(MeshField, OpenSheetsAndNothingAreRefused) {
 
 TEST(MeshField, SameOnOneThreadAndOnMany) {
   const TriangleMesh mesh = samples::joined(icosphere(4, 0.1), icosphere(4, 0.1, Vec3(0.11, 0.02, 0)));
-  const BodyField many = field_of(mesh);
-  tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
-  const BodyField one = field_of(mesh);
+  const auto field_on = [&](size_t threads) {
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return field_of(mesh);
+  };
+  const BodyField one = field_on(1), two = field_on(2), four = field_on(4);
   std::mt19937 random(6);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 20000; ++i) {
     const Vec3 p = random_in(random, 0.25);
-    EXPECT_EQ(one.distance(p), many.distance(p));
+    for (const BodyField* many : {&two, &four}) {
+      EXPECT_EQ(one.distance(p), many->distance(p));
+      EXPECT_EQ(one.sample(p).normal, many->sample(p).normal);
+    }
   }
 }
 
@@ -246,11 +251,13 @@ TEST_P(RealBodies, FieldAgreesWithExactDistances) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0, 1);
   std::vector<double> errors;
+  std::vector<Vec3> points;
   for (int i = 0; i < 20000; ++i) {
     const size_t t = std::lower_bound(area_up_to.begin(), area_up_to.end(), area * unit(random)) - area_up_to.begin();
     const Vec3 &a = solid.vertices[solid.triangles[t][0]], &b = solid.vertices[solid.triangles[t][1]],
                &c = solid.vertices[solid.triangles[t][2]];
     const Vec3 p = (a + b + c) / 3 + 0.008 * (unit(random) - 0.5) * (b - a).cross(c - a).normalized();
+    points.push_back(p);
     double best = 1;
     bvh.nearest(p, best, [&](int k) {
       const auto& [x, y, z] = solid.triangles[k];
@@ -266,6 +273,12 @@ TEST_P(RealBodies, FieldAgreesWithExactDistances) {
   std::cout << GetParam().path << ": " << seconds << " s, error median " << errors[10000] * 1e3 << " mm, 90 % "
             << errors[18000] * 1e3 << " mm, 99 % " << errors[19800] * 1e3 << " mm, max " << errors.back() * 1e3
             << " mm\n";
+  const auto began = std::chrono::steady_clock::now();
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& p : points) sum += field.sample(p).normal;
+  const double taken = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - began).count();
+  std::cout << "  " << taken / points.size() << " ns a sample at random places, mean normal "
+            << (sum / points.size()).transpose() << "\n";
   for (const std::string& warning : field.warnings()) std::cout << "  " << warning << "\n";
   EXPECT_LT(errors[10000], 0.05e-3);
   EXPECT_LT(errors[18000], 0.3e-3);
