@@ -8,7 +8,6 @@
 #include "tests/engine/geometry/mesh_samples.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <chrono>
@@ -192,10 +191,7 @@ TEST(MeshField, OpenSheetsAndNothingAreRefused) {
 
 TEST(MeshField, SameOnOneThreadAndOnMany) {
   const TriangleMesh mesh = samples::joined(icosphere(4, 0.1), icosphere(4, 0.1, Vec3(0.11, 0.02, 0)));
-  const auto field_on = [&](size_t threads) {
-    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return field_of(mesh);
-  };
+  const auto field_on = [&](int threads) { return samples::on_threads(threads, [&] { return field_of(mesh); }); };
   const BodyField one = field_on(1), two = field_on(2), four = field_on(4);
   std::mt19937 random(6);
   for (int i = 0; i < 20000; ++i) {

@@ -1,8 +1,11 @@
 #pragma once
-// Meshes for tests: simple shapes, and the real bodies where ../shared is there.
+// For tests: simple shapes, the real bodies where ../shared is there, and a given number of threads.
 
 #include "engine/mesh/triangle_mesh.h"
 #include "engine/types.h"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <cmath>
 #include <fstream>
@@ -75,6 +78,14 @@ inline TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {
 inline TriangleMesh inside_out(TriangleMesh mesh) {
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
+}
+
+/// What `make` returns when it may use so many threads, also more than the machine has cores.
+template <typename Make>
+auto on_threads(int threads, Make&& make) {
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+  tbb::task_arena arena(threads);
+  return arena.execute(make);
 }
 
 /// z up to y up.

@@ -4,7 +4,6 @@
 #include "tests/engine/geometry/mesh_samples.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,9 +76,9 @@ TEST(NarrowBand, HoldsEveryVoxelNearTheSurface) {
 
 TEST(NarrowBand, LeavesDoNotOverlapAndAreTheSameOnOneThreadAndOnMany) {
   const TriangleMesh mesh = two_spheres();
-  const auto band = [&](size_t threads) {
-    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return narrow_band(mesh.vertices, mesh.triangles, kOrigin, kVoxel, kWidth);
+  const auto band = [&](int threads) {
+    return samples::on_threads(threads,
+                               [&] { return narrow_band(mesh.vertices, mesh.triangles, kOrigin, kVoxel, kWidth); });
   };
   const std::vector<BandLeaf> one = band(1), two = band(2), four = band(4);
   for (const std::vector<BandLeaf>* many : {&two, &four}) {
