@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace toile {
@@ -13,11 +14,11 @@ namespace toile {
 namespace {
 
 /// Half the width of the fine band in fine cells: what the stencil of a cell that the surface crosses reads, and more.
-constexpr double kBand = 3.0;
-/// The coarse grid is refined from every fourth node on. Exterior nodes farther away than this many strides take the
-/// mean of those around them: at 12.5 mm beyond 50 mm, where it is right within about a millimetre.
+constexpr double kBand = 4.0;
+/// The coarse grid is refined from every fourth node on. Exterior nodes so many strides beyond the margin take the mean
+/// of those around them: √3 strides away, so that no cell within the margin reads them.
 constexpr int kFirstStride = 4;
-constexpr double kFarFromSurface = 4;
+constexpr double kBeyondMargin = 2;
 
 /// Exact signed distances along lines of nodes: the last answer bounds the next search, and the sign is asked for again
 /// only where the surface is near enough to have been crossed.
@@ -145,7 +146,7 @@ void DistanceGrid::fill_coarse(const Bvh& bvh, const SoupSolid& solid) {
           float& value = coarse_values_[coarse_.index(i, j, k)];
           if (stride < kFirstStride) {
             value = mean_around({i, j, k}, stride);
-            if (value > kFarFromSurface * stride * coarse_.spacing) continue;
+            if (value > settings_.margin + kBeyondMargin * stride * coarse_.spacing) continue;
           }
           value = static_cast<float>(walker.signed_distance(coarse_.point(i, j, k)));
         }
@@ -167,6 +168,7 @@ float DistanceGrid::mean_around(const std::array<int, 3>& node, int stride) cons
 }
 
 void DistanceGrid::fill_bricks(const std::vector<BandLeaf>& leaves) {
+  assert(settings_.margin >= (kBand + 1) * settings_.fine_spacing);  // every leaf is within the bricks
   brick_index_.assign(static_cast<size_t>(bricks_[0]) * bricks_[1] * bricks_[2], -1);
   for (size_t n = 0; n < leaves.size(); ++n) {
     const auto& [i, j, k] = leaves[n].first;

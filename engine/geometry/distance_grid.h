@@ -35,17 +35,18 @@ struct SoupSolid {
 
 struct GridSettings {
   double fine_spacing = 0.005, coarse_spacing = 0.01;  ///< [m]
-  double margin = 0.08;  ///< of the coarse grid around the solid [m], at least four fine cells
+  double margin = 0.08;  ///< of the coarse grid around the solid [m], at least five fine cells
 };
 
 /// The fine grid is the narrow band that OpenVDB's mesh conversion finds (narrow_band.h): its leaves, its distances
 /// made exact by a BVH search that they bound, its sign from SoupSolid::inside, asked only where no neighbour of the
-/// same side is known. Values between nodes are trilinear. The gradient is the trilinear interpolation of the nodes'
-/// central differences: unlike the gradient of the trilinear interpolant it is continuous within a grid, at 32 nodes
-/// read instead of 8. Voxels of a leaf beyond the band continue the coarse grid; where the leaves end, the gradient
-/// jumps by the coarse grid's error. Leaves are copied with the nodes around them, so that a sample reads one
-/// contiguous block instead of walking OpenVDB's tree up to eight times (tests/engine/geometry prints its cost).
-/// Immutable; concurrent calls are safe. Deterministic on any number of threads.
+/// same side is known. The coarse grid is as exact inside and within the margin; farther out it is interpolated from
+/// every second or fourth node. Voxels of a leaf beyond the band continue it.
+/// Values between nodes are trilinear. The gradient is the trilinear interpolation of the nodes' central differences:
+/// unlike the gradient of the trilinear interpolant it is continuous within a grid, at 32 nodes read instead of 8.
+/// Where the leaves end, it jumps by the coarse grid's error. Leaves are copied with the nodes around them, so that a
+/// sample reads one contiguous block instead of walking OpenVDB's tree up to 32 times (tests/engine/geometry prints its
+/// cost). Immutable; concurrent calls are safe. Deterministic on any number of threads.
 class DistanceGrid {
  public:
   DistanceGrid(const SoupSolid& solid, const GridSettings& settings);

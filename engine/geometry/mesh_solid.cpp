@@ -16,7 +16,7 @@ constexpr double kMostFineNodes = 25e6;             ///< 100 MB
 constexpr double kMostCoarseNodes = 4e6;            ///< 16 MB
 constexpr double kMargin = 0.08;                    ///< [m], the exterior band
 /// Nodes per cell of surface area, as met on bodies, with those that bricks share.
-constexpr double kNodesPerArea = 40;
+constexpr double kNodesPerArea = 45;
 
 GridSettings settings_for(const TriangleMesh& mesh, double edge_length) {
   const Box box = bounding_box(mesh.vertices);
@@ -28,7 +28,7 @@ GridSettings settings_for(const TriangleMesh& mesh, double edge_length) {
   GridSettings settings;
   settings.fine_spacing =
       std::max(std::clamp(edge_length / 3, kFinest, kWidest), std::sqrt(kNodesPerArea * area / kMostFineNodes));
-  settings.margin = std::max(kMargin, 4 * settings.fine_spacing);
+  settings.margin = std::max(kMargin, 5 * settings.fine_spacing);
   settings.coarse_spacing =
       std::max(2.5 * settings.fine_spacing, std::cbrt((size.array() + 2 * settings.margin).prod() / kMostCoarseNodes));
   return settings;
