@@ -21,7 +21,7 @@ struct BandLeaf {
 /// Leaves of the voxels origin + voxel·(i, j, k) that lie within `half_width` voxels of the triangles, ordered by
 /// place. openvdb::tools::meshToVolume: exact up to ¾ of a voxel, farther away it takes the triangles that a
 /// neighbour's distance was measured to, so that a few percent of the distances are too large (bodies at 5 mm: up to
-/// half a voxel). The same on any number of threads.
+/// ¾ of a voxel). The same on any number of threads.
 std::vector<BandLeaf> narrow_band(const Positions& vertices, const std::vector<Triangle>& triangles, const Vec3& origin,
                                   double voxel, double half_width);
 
