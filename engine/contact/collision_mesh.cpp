@@ -41,6 +41,10 @@ double default_contact_distance(double thickness, double edge_length) {
   return std::max(thickness, std::min(0.18 * edge_length, 3e-3));
 }
 
+double default_body_offset(double thickness, double edge_length) {
+  return std::max(0.5 * thickness, std::min(0.1 * edge_length, 1.5e-3));
+}
+
 CollisionMesh make_collision_mesh(const Cloth& cloth, double contact_distance, SeamZone zone) {
   CollisionMesh mesh;
   mesh.triangles = cloth.triangles;

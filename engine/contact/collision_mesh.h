@@ -22,6 +22,10 @@ struct CollisionMesh {
   std::vector<double> friction;  ///< per vertex: cloth–cloth Coulomb coefficient; a pair takes the mean of its nodes
 };
 
+/// How far the mid-surface stays off the body [m]: half the fabric's thickness, or a tenth of an edge, at most 1.5 mm,
+/// where that is more, so that a coarse chord does not cut into the skin. It makes a tight band longer by 2π times itself.
+double default_body_offset(double thickness, double edge_length);
+
 /// Contact distance of a fabric of `thickness` on a mesh of `edge_length` [m]: no thinner than the fabric, and wide
 /// enough (0.18 edges, at most 3 mm) that a layer meets several features of the other at once.
 double default_contact_distance(double thickness, double edge_length);

@@ -3,12 +3,16 @@
 #include "engine/mesh/sewing.h"
 #include "engine/monitor.h"
 #include "engine/quality/intersections.h"
+#include "engine/scene/problem.h"
 #include "engine/solve/clear_panels.h"
 #include "engine/solve/position_based.h"
+#include "engine/solve/untangle.h"
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace toile {
 namespace {
@@ -18,8 +22,18 @@ constexpr double kReportedGap = 1e-3;   // [m] a seam wider than this after all 
 constexpr int kClosingSteps = 1500;     // at most, per garment
 constexpr int kPatience = 150;          // steps without a smaller gap, after which a stage of the closing is over
 constexpr int kRelaxingSteps = 150;     // after closing: evens out the stretch of the closing
-constexpr int kUntanglingSteps = 400;   // at most: seam zones that went through each other come free
-constexpr SeamZone kZones[] = {{3, false}, {6, true}};  // where cloth passes through cloth: wider for what stays open
+constexpr int kUntanglingRounds = 200;  // at most: seam zones that went through each other come free
+constexpr double kUntanglingStep = 2e-3;  // [m] per round
+
+/// A way of sewing. Which one leads to no tangle can't be foreseen, so they are tried in this order, each from the start.
+struct Manner {
+  double closing;  // of a gap per step [m]
+  double carry;    // damped inertia
+  SeamZone zone;   // where the two sides of a seam pass through each other
+};
+constexpr Manner kManners[] = {{6e-3, 0.6, {2, false}}, {3e-3, 0.85, {3, false}}, {3e-3, 0.6, {2, false}},
+                               {6e-3, 0.85, {4, false}}, {2e-3, 0.7, {3, false}}};
+constexpr SeamZone kWideZone{6, true};  // for seams that stay open
 constexpr int kFallingSteps = 400;      // a skirt sewn through raised arms falls below them
 constexpr double kHangs = 5e-3;         // [m] outside the body without overhangs
 constexpr std::size_t kSampledTriangles = 20;  // every so many
@@ -43,7 +57,7 @@ double body_offset(const Cloth& cloth, const SolverOptions& solver) {
   if (solver.body_offset > 0) return solver.body_offset;
   double offset = 0;
   for (const ClothPanel& panel : cloth.panels)
-    offset = std::max(offset, default_contact_distance(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
+    offset = std::max(offset, default_body_offset(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
   return offset;
 }
 
@@ -99,9 +113,11 @@ std::vector<std::vector<SeamPull>> seams_in_order(const Cloth& cloth, int garmen
 
 /// Closes the seams of one garment while later garments wait and earlier ones give way.
 void close_seams(Stage& stage, PositionBased& solver, Cloth& cloth, int garment, const std::vector<std::string>& part,
-                 double offset, double from, double to) {
+                 const Manner& manner, double offset, double from, double to) {
   PositionBasedOptions options;
   options.body_offset = offset;
+  options.closing = manner.closing;
+  options.carry = manner.carry;
   double gap = 0;
   for (const std::vector<SeamPull>& pulls : seams_in_order(cloth, garment, part)) {
     solver.set_pulls(pulls);
@@ -122,35 +138,45 @@ void close_seams(Stage& stage, PositionBased& solver, Cloth& cloth, int garment,
   }
 }
 
-/// Pairs of triangles that would cross if every seam were closed now.
-std::size_t crossings_when_sewn(const Cloth& cloth) {
-  const std::vector<int> root = seam_representatives(cloth);
-  Positions sum(cloth.x.size(), Vec3::Zero());
+/// The cloth as it would be if every seam were closed now: seam vertices in their common mean.
+struct Closed {
+  std::vector<int> root;
+  Positions x;                      // at roots
+  std::vector<Triangle> triangles;  // of roots
+};
+Closed as_closed(const Cloth& cloth) {
+  Closed sewn{seam_representatives(cloth), Positions(cloth.x.size(), Vec3::Zero()), cloth.triangles};
   std::vector<int> count(cloth.x.size(), 0);
   for (std::size_t v = 0; v < cloth.x.size(); ++v) {
-    sum[root[v]] += cloth.x[v];
-    ++count[root[v]];
+    sewn.x[sewn.root[v]] += cloth.x[v];
+    ++count[sewn.root[v]];
   }
   for (std::size_t v = 0; v < cloth.x.size(); ++v)
-    if (count[v] > 0) sum[v] /= count[v];
-  std::vector<Triangle> triangles = cloth.triangles;
-  for (Triangle& t : triangles)
-    for (int& v : t) v = root[v];
-  return self_intersections(sum, triangles).size();
+    if (count[v] > 0) sewn.x[v] /= count[v];
+  for (Triangle& t : sewn.triangles)
+    for (int& v : t) v = sewn.root[v];
+  return sewn;
 }
 
-/// Goes on until nothing crosses: bending lays the two sides of a seam flat beside each other.
+/// Goes on until nothing crosses: bending lays the two sides of a seam flat beside each other, and what is still
+/// through something is drawn out. Returns the pairs of triangles that cross in the end.
 std::size_t untangle(Stage& stage, PositionBased& solver, Cloth& cloth, double offset) {
   PositionBasedOptions options;
   options.body_offset = offset;
   options.carry = 0.5;
   options.bending = 0.3;
-  std::size_t crossings = crossings_when_sewn(cloth);
-  for (int s = 1; s <= kUntanglingSteps && crossings > 0; ++s) {
-    stage.step(solver, cloth.x, options, 0.9);
-    if (s % 10 == 0) crossings = crossings_when_sewn(cloth);
+  for (int s = 0;; ++s) {
+    const Closed sewn = as_closed(cloth);
+    const std::vector<TrianglePair> crossings = self_intersections(sewn.x, sewn.triangles);
+    if (crossings.empty() || s >= kUntanglingRounds) return crossings.size();
+    const Positions moves = untangling_moves(sewn.x, sewn.triangles, crossings, kUntanglingStep);
+    Positions moved = cloth.x;
+    for (std::size_t v = 0; v < cloth.x.size(); ++v)
+      if (solver.mobility[v] > 0) moved[v] += moves[sewn.root[v]];
+    limit_displacements(cloth.x, solver.displacement_bounds(cloth.x), moved);
+    cloth.x = moved;
+    for (int k = 0; k < 3; ++k) stage.step(solver, cloth.x, options, 0.9);
   }
-  return crossings;
 }
 
 /// Seam vertices move into their common mean, never farther at once than nothing can cross.
@@ -208,6 +234,49 @@ std::vector<std::string> open_seams(const Cloth& cloth) {
   return names;
 }
 
+struct Sewing {
+  const Scene& scene;
+  const BodyFields& fields;
+  const std::vector<const BodyField*>& field;
+  const std::vector<char>&keep, &held;
+  double offset;
+};
+
+/// What one manner of sewing came to.
+struct Sewn {
+  Positions x;
+  std::size_t open = 0, crossings = 0;
+  double gap = 0;
+  bool sound() const { return open == 0 && crossings == 0; }
+  bool better_than(const Sewn& other) const {
+    return std::make_pair(open, crossings) < std::make_pair(other.open, other.crossings);
+  }
+};
+
+Sewn sew(Stage& stage, const Sewing& sewing, Cloth cloth, const Manner& manner) {
+  const int garments = static_cast<int>(sewing.scene.garments.size());
+  Sewn sewn;
+  for (const SeamZone& zone : {manner.zone, kWideZone}) {
+    PositionBased solver(cloth, make_collision_mesh(cloth, sewing.scene.solver.contact_distance, zone), kListRadius,
+                         sewing.field);
+    solver.keep_height = sewing.keep;
+    for (int g = 0; g < garments; ++g) {
+      for (std::size_t v = 0; v < cloth.x.size(); ++v)
+        solver.mobility[v] = sewing.held[v] || cloth.vertex_garment[v] > g ? 0.0 : 1.0;
+      close_seams(stage, solver, cloth, g, part_of_panels(cloth, g, sewing.fields), manner, sewing.offset,
+                  0.9 * g / garments, 0.9 * (g + 1) / garments);
+    }
+    sewn.open = open_seams(cloth).size();
+    if (sewn.open > 0) continue;
+    sewn.crossings = untangle(stage, solver, cloth, sewing.offset);
+    sewn.gap = meet(solver, cloth);
+    break;
+  }
+  if (sewn.open > 0) sewn.gap = seam_gap_max(cloth);
+  sewn.x = std::move(cloth.x);
+  return sewn;
+}
+
 }  // namespace
 
 std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth) {
@@ -219,7 +288,12 @@ std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth
   if (const auto* vertices = std::get_if<PinVertices>(&pin.select)) {
     int first = 0;  // a garment's vertices follow one another
     while (first < static_cast<int>(cloth.x.size()) && cloth.vertex_garment[first] != garment) ++first;
-    for (int v : vertices->vertices) chosen.push_back(first + v);
+    for (int v : vertices->vertices) {
+      if (v < 0 || first + v >= static_cast<int>(cloth.x.size()) || cloth.vertex_garment[first + v] != garment)
+        throw InputError("/garments/" + std::to_string(garment) + "/pins", "vertex_out_of_range",
+                         "a pin names vertex " + std::to_string(v) + ", which the garment does not have");
+      chosen.push_back(first + v);
+    }
   } else if (const auto* edge = std::get_if<PinEdge>(&pin.select)) {
     int index = 0;
     for (const ClothPanel& panel : cloth.panels)
@@ -262,25 +336,17 @@ Assembly assemble(const Scene& scene, Cloth apart, const BodyFields& fields, con
   if (!apart.seam_pairs.empty()) {
     clear_panels(apart, field, offset, 0.4);
     open_slits(apart, kSlitGap);
-    std::vector<std::vector<std::string>> parts;
-    for (std::size_t g = 0; g < scene.garments.size(); ++g)
-      parts.push_back(part_of_panels(apart, static_cast<int>(g), fields));
-    for (const SeamZone& zone : kZones) {
-      PositionBased solver(apart, make_collision_mesh(apart, scene.solver.contact_distance, zone), kListRadius, field);
-      solver.keep_height = keep;
-      const int garments = static_cast<int>(scene.garments.size());
-      for (int g = 0; g < garments; ++g) {
-        for (std::size_t v = 0; v < apart.x.size(); ++v)
-          solver.mobility[v] = held[v] || apart.vertex_garment[v] > g ? 0.0 : 1.0;
-        close_seams(stage, solver, apart, g, parts[g], offset, 0.9 * g / garments, 0.9 * (g + 1) / garments);
-      }
-      result.open_seams = open_seams(apart);
-      if (!result.open_seams.empty()) continue;
-      result.crossings = untangle(stage, solver, apart, offset);
-      result.seam_gap_max = meet(solver, apart);
-      break;
+    const Sewing sewing{scene, fields, field, keep, held, offset};
+    std::optional<Sewn> best;
+    for (const Manner& manner : kManners) {
+      Sewn sewn = sew(stage, sewing, apart, manner);
+      if (!best || sewn.better_than(*best)) best = std::move(sewn);
+      if (best->sound()) break;
     }
-    if (!result.open_seams.empty()) result.seam_gap_max = seam_gap_max(apart);
+    apart.x = std::move(best->x);
+    result.open_seams = open_seams(apart);
+    result.crossings = best->crossings;
+    result.seam_gap_max = best->gap;
   }
   result.cloth = std::move(apart);
   result.old_to_new = merge_seams(result.cloth);

@@ -46,8 +46,7 @@ bool segment_meets_triangle(const Vec3& a, const Vec3& b, const Vec3& p, const V
   const double da = n.dot(a - p), db = n.dot(b - p);
   if ((da > 0) == (db > 0)) return false;
   const Vec3 hit = a + (b - a) * (da / (da - db));
-  return n.dot((q - p).cross(hit - p)) >= 0 && n.dot((r - q).cross(hit - q)) >= 0 &&
-         n.dot((p - r).cross(hit - r)) >= 0;
+  return n.dot((q - p).cross(hit - p)) >= 0 && n.dot((r - q).cross(hit - q)) >= 0 && n.dot((p - r).cross(hit - r)) >= 0;
 }
 
 class CrossingCheck {
@@ -91,8 +90,7 @@ bool touches_body(const Cloth& cloth, const PanelFeatures& panel, const std::vec
     if (field[v] && field[v]->distance(cloth.x[v]) < clearance) return true;
   for (int t : panel.triangles) {
     const Triangle& tri = cloth.triangles[t];
-    if (field[tri[0]] &&
-        field[tri[0]]->distance((cloth.x[tri[0]] + cloth.x[tri[1]] + cloth.x[tri[2]]) / 3) < clearance)
+    if (field[tri[0]] && field[tri[0]]->distance((cloth.x[tri[0]] + cloth.x[tri[1]] + cloth.x[tri[2]]) / 3) < clearance)
       return true;
   }
   return false;
@@ -130,8 +128,21 @@ void clear_panels(Cloth& apart, const std::vector<const BodyField*>& field, doub
       moved += kMove;
     }
     if (moved > 0)
-      apart.warnings.push_back("panel '" + apart.panels[p].name + "' started inside the body or through another and was moved " +
+      apart.warnings.push_back("panel '" + apart.panels[p].name +
+                               "' started inside the body or through another and was moved " +
                                std::to_string(static_cast<int>(moved * 1000 + 0.5)) + " mm outwards");
+  }
+}
+
+void refuse_enclosed_panels(const Cloth& apart, const std::vector<const BodyField*>& field) {
+  for (const PanelFeatures& panel : features_of_panels(apart)) {
+    const bool enclosed =
+        !panel.vertices.empty() && std::all_of(panel.vertices.begin(), panel.vertices.end(),
+                                               [&](int v) { return field[v] && field[v]->distance(apart.x[v]) < 0; });
+    if (!enclosed) continue;
+    const ClothPanel& named = apart.panels[apart.triangle_panel[panel.triangles.front()]];
+    throw InputError("/garments/" + std::to_string(named.garment), "panel_inside_body",
+                     "panel '" + named.name + "' starts wholly inside the body");
   }
 }
 

@@ -16,6 +16,10 @@ std::vector<const BodyField*> field_of_vertices(const Cloth& apart, const BodyFi
 /// Throws InputError (`panel_inside_body`) naming a panel that finds no free place.
 void clear_panels(Cloth& apart, const std::vector<const BodyField*>& field, double clearance, double reach);
 
+/// For panels that are not to be moved: throws InputError (`panel_inside_body`) naming one that lies inside the body
+/// with all its vertices.
+void refuse_enclosed_panels(const Cloth& apart, const std::vector<const BodyField*>& field);
+
 /// Pulls apart what touches itself as drawn: the edges of a slit (for a godet) lie on one another. Vertices whose
 /// features are nearer than `gap` to unrelated ones move by `gap` towards the middle of their own triangles.
 void open_slits(Cloth& apart, double gap);

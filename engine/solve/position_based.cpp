@@ -14,7 +14,9 @@ PositionBased::PositionBased(const Cloth& cloth, CollisionMesh mesh, double list
       keep_height(cloth.x.size(), 0),
       proximity_(std::move(mesh), list_radius),
       body_(std::move(body_of_vertex)),
-      body_samples_(cloth.x.size()) {
+      body_samples_(cloth.x.size()),
+      floor_(cloth.x.size()) {
+  for (std::size_t v = 0; v < cloth.x.size(); ++v) floor_[v] = cloth.x[v].y();
   struct Side {
     int opposite;
     Vec2 from, to, tip;  // flat, with from belonging to the smaller vertex
@@ -136,7 +138,7 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
       if (lack > 0) x[v] += s.normal * std::min(lack, limit);
     }
     for (int v = 0; v < n; ++v)
-      if (keep_height[v]) x[v].y() = start[v].y();
+      if (keep_height[v]) x[v].y() = std::max(x[v].y(), floor_[v]);
     // Last, since a seam has to close even in an armpit narrower than the offset.
     for (std::size_t i = 0; i < meeting_.size(); ++i) {
       const Vec3 mean = mean_of(meeting_[i], x);

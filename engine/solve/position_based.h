@@ -17,7 +17,7 @@ struct SeamPull {
 };
 
 struct PositionBasedOptions {
-  double closing = 6e-3;        ///< of a seam's gap in one step [m]
+  double closing = 3e-3;        ///< of a seam's gap in one step [m]
   double carry = 0.85;          ///< share of the last step's movement that goes on (damped inertia)
   double max_move = 4e-3;       ///< per vertex and step [m]
   double bending = 0.1;         ///< share of a bend's correction taken per iteration
@@ -34,7 +34,7 @@ class PositionBased {
 
   /// 0 holds a vertex where it is; 1 frees it.
   std::vector<double> mobility;
-  /// Vertices that keep their height while they slide sideways.
+  /// Vertices that don't sink while they slide sideways and up (a waistband before it is attached).
   std::vector<char> keep_height;
 
   /// From now on vertices joined by these pairs are drawn into their common mean.
@@ -66,6 +66,7 @@ class PositionBased {
   std::vector<std::vector<int>> meeting_;  ///< sets of vertices that are to become one
   std::vector<Contact> contacts_;
   std::vector<BodyField::Sample> body_samples_;
+  std::vector<double> floor_;  ///< height at the start [m]
   Positions carried_;
   double largest_move_ = 0;
 };

@@ -23,7 +23,7 @@ PreviewOutcome settle_preview(const Scene& scene, Cloth& cloth, const BodyField*
   options.carry = 0.97;
   for (const ClothPanel& panel : cloth.panels)
     options.body_offset = std::max(
-        scene.solver.body_offset, default_contact_distance(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
+        scene.solver.body_offset, default_body_offset(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
   for (const HeldVertex& h : held) {
     solver.mobility[h.vertex] = 0;
     cloth.x[h.vertex] = position_at(h, last_key_frame(held));

@@ -32,7 +32,7 @@ class Touching {
     if (body_options_.offset > 0) return;
     for (const ClothPanel& panel : cloth.panels)
       body_options_.offset = std::max(
-          body_options_.offset, default_contact_distance(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
+          body_options_.offset, default_body_offset(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
   }
 
   std::vector<Contact> detect(const Positions& x) {
