@@ -1,0 +1,292 @@
+// The whole engine on scenes of a few hundred vertices.
+
+#include "engine/drape.h"
+
+#include "engine/parallel/state_hash.h"
+#include "engine/scene/problem.h"
+#include "tests/engine/drape/meshes.h"
+#include "tests/engine/solve/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace toile {
+namespace {
+
+using namespace test;
+
+bool warns(const Report& report, const std::string& words) {
+  return std::any_of(report.warnings.begin(), report.warnings.end(),
+                     [&](const std::string& w) { return w.find(words) != std::string::npos; });
+}
+
+Scene ball_scene(double edge_length = 0.02) {
+  Scene scene;
+  scene.garments = {square_garment(0.2, edge_length, 0.105)};
+  scene.garments[0].fabric.bending_damping = 0.2;
+  scene.body = Body{SphereBody{Vec3::Zero(), 0.1}, 0.3};
+  return scene;
+}
+
+/// A short skirt whose waist is held to the cylinder.
+Scene skirt_scene() {
+  Scene scene = tube_scene(0.03);
+  Pattern skirt = tube_pattern(0.345, 0.12, 0.14, -0.06);
+  for (Panel& panel : skirt.panels) panel.edges[2].label = "lower_interface";
+  scene.garments[0].shape = skirt;
+  scene.garments[0].pins = {{PinLabel{"lower_interface"}, PinAttached{}}};
+  return scene;
+}
+
+/// What a reader of any report may rely on.
+void expect_consistent(const Drape& drape, const Scene& scene) {
+  const Report& r = drape.report;
+  EXPECT_EQ(r.vertices, static_cast<long>(drape.cloth.x.size()));
+  EXPECT_EQ(r.triangles, static_cast<long>(drape.cloth.triangles.size()));
+  EXPECT_EQ(drape.contact_force.size(), drape.cloth.x.size());
+  EXPECT_EQ(drape.stretch_warp.size(), drape.cloth.triangles.size());
+  EXPECT_EQ(drape.stretch_weft.size(), drape.cloth.triangles.size());
+  EXPECT_TRUE(all_finite(drape.cloth.x));
+  EXPECT_EQ(r.result_sha256, sha256_hex(drape.cloth.x));
+  EXPECT_EQ(r.self_intersections, static_cast<long>(self_intersections(drape.cloth.x, drape.cloth.triangles).size()));
+  EXPECT_EQ(drape.body_mesh.triangles.empty(), !scene.body.has_value());
+  for (const StretchStatistics& s : {r.stretch_warp, r.stretch_weft}) {
+    EXPECT_LE(s.p99, s.max);
+    EXPECT_LE(s.mean, s.max);
+  }
+  for (std::size_t t = 0; t < drape.stretch_warp.size(); ++t) {
+    EXPECT_LE(drape.stretch_warp[t], r.stretch_warp.max + 1e-12);
+    EXPECT_LE(drape.stretch_weft[t], r.stretch_weft.max + 1e-12);
+  }
+  EXPECT_GE(r.residual_max, r.residual_rms);
+  EXPECT_GE(r.kinetic_energy, 0);
+  const StageTimes& t = r.time;
+  for (double part : {t.assemble, t.collisions, t.derivatives, t.assembly, t.linear_solve, t.line_search, t.other})
+    EXPECT_GE(part, 0);
+  EXPECT_LE(t.collisions + t.derivatives + t.assembly + t.linear_solve + t.line_search + t.other, t.drape + 1e-3);
+  EXPECT_LE(t.assemble + t.drape, t.total + 1e-3);
+}
+
+TEST(Drape, ASkirtOnACylinderConvergesAndReportsWhatItIsWorth) {
+  const Scene scene = skirt_scene();
+  CountingMonitor monitor;
+  const Drape result = drape(scene, monitor);
+  expect_consistent(result, scene);
+  const Report& r = result.report;
+  EXPECT_EQ(r.status, "converged");
+  EXPECT_EQ(r.stop_reason, "at_rest");
+  EXPECT_LT(r.seam_gap_max, 1e-3);
+  EXPECT_EQ(r.self_intersections, 0);
+  EXPECT_LT(r.penetration_max, 2e-3);
+  EXPECT_LT(r.stretch_warp.p99, 0.05);
+  EXPECT_LT(r.stretch_weft.p99, 0.05);
+  EXPECT_GT(r.steps, 100);
+  EXPECT_GE(r.newton_iterations, r.steps);
+  EXPECT_GT(r.cg_iterations, 0);
+  EXPECT_NEAR(r.simulated_time, scene.solver.max_time_step * static_cast<double>(r.steps), 0.5 * r.simulated_time);
+  EXPECT_LT(r.residual_rms, 0.1);
+  EXPECT_TRUE(result.cloth.seam_pairs.empty());
+}
+
+TEST(Drape, TellsItsStagesInOrderAndAFractionThatRises) {
+  CountingMonitor monitor;
+  drape(skirt_scene(), monitor);
+  EXPECT_EQ(monitor.stages, (std::vector<std::string>{"mesh", "body", "assemble", "relax", "drape", "measure"}));
+  EXPECT_TRUE(monitor.rising);
+  EXPECT_GT(monitor.last.fraction_done, 0.9);
+}
+
+TEST(Drape, SameBytesOnAnyNumberOfThreadsAndInEveryRun) {
+  const auto hash = [](int threads) {
+    Scene scene = skirt_scene();
+    scene.solver.threads = threads;
+    scene.solver.simulated_time_limit = 0.3;
+    CountingMonitor monitor;
+    return drape(scene, monitor).report.result_sha256;
+  };
+  const std::string one = hash(1);
+  EXPECT_EQ(one.size(), 64u);
+  EXPECT_EQ(one, hash(2));
+  EXPECT_EQ(one, hash(2));
+  EXPECT_EQ(one, hash(0));
+}
+
+TEST(Drape, CancelsInEveryStage) {
+  CountingMonitor whole;
+  Scene scene = skirt_scene();
+  scene.solver.simulated_time_limit = 0.1;
+  drape(scene, whole);
+  for (long at : {0L, 1L, 2L, 10L, whole.count / 2, whole.count - 1}) {
+    CountingMonitor monitor(at);
+    EXPECT_THROW(drape(scene, monitor), Cancelled) << at;
+    EXPECT_EQ(monitor.count, at + 1);
+  }
+}
+
+TEST(Drape, PreviewIsQuickSoundAndSaysThatItIsOne) {
+  Scene scene = ball_scene();
+  scene.fidelity = Fidelity::preview;
+  CountingMonitor monitor;
+  const Drape result = drape(scene, monitor);
+  expect_consistent(result, scene);
+  EXPECT_TRUE(result.report.status == "converged" || result.report.status == "not_converged");
+  EXPECT_EQ(result.report.self_intersections, 0);
+  EXPECT_LT(result.report.penetration_max, 2e-3);
+  EXPECT_EQ(result.report.newton_iterations, 0);
+  EXPECT_TRUE(warns(result.report, "preview"));
+}
+
+TEST(Drape, ADrapeThatIsCutShortHasNotConverged) {
+  Scene scene = ball_scene();
+  scene.solver.simulated_time_limit = 0.15;
+  CountingMonitor monitor;
+  const Drape result = drape(scene, monitor);
+  expect_consistent(result, scene);
+  EXPECT_EQ(result.report.status, "not_converged");
+  EXPECT_EQ(result.report.stop_reason, "time_limit");
+}
+
+TEST(Drape, AStepThatCannotSucceedHasNotConverged) {
+  Scene scene = ball_scene();
+  scene.solver.newton_tolerance = 1e-30;
+  scene.solver.newton_iterations = 1;
+  CountingMonitor monitor;
+  const Drape result = drape(scene, monitor);
+  expect_consistent(result, scene);
+  EXPECT_EQ(result.report.status, "not_converged");
+  EXPECT_EQ(result.report.stop_reason, "step_too_small");
+}
+
+TEST(Drape, SeamsThatDoNotCloseFailByName) {
+  Scene scene;
+  scene.garments = {garment_of(tube_pattern(0.2, 0.1, 0.16, -0.05), 0.05)};
+  scene.body = cylinder_body();
+  scene.garments[0].pins = {{PinEdge{0, 1}, PinFixed{}}, {PinEdge{1, 3}, PinFixed{}}};
+  CountingMonitor monitor;
+  const Drape result = drape(scene, monitor);
+  expect_consistent(result, scene);
+  EXPECT_EQ(result.report.status, "failed");
+  EXPECT_EQ(result.report.stop_reason, "seams_open");
+  EXPECT_GT(result.report.seam_gap_max, 0.1);
+  EXPECT_TRUE(warns(result.report, "front"));
+}
+
+TEST(Drape, RefusesWhatTheSceneCheckRefuses) {
+  Scene scene = ball_scene();
+  scene.garments[0].fabric.area_density = std::nan("");
+  CountingMonitor monitor;
+  EXPECT_THROW(drape(scene, monitor), InputError);
+  scene = {};
+  EXPECT_THROW(drape(scene, monitor), InputError);
+}
+
+TEST(Drape, RefusesAPinOnAVertexThatIsNotThere) {
+  for (Scene scene : {ball_scene(), skirt_scene()}) {
+    scene.garments[0].pins = {{PinVertices{{1000000}}, PinFixed{}}};
+    CountingMonitor monitor;
+    EXPECT_THROW(drape(scene, monitor), InputError);
+  }
+}
+
+TEST(Drape, RefusesAGarmentInsideAHugeBody) {
+  for (Scene scene : {ball_scene(), skirt_scene()}) {
+    scene.body = Body{SphereBody{Vec3::Zero(), 2.0}, 0.3};
+    CountingMonitor monitor;
+    try {
+      drape(scene, monitor);
+      ADD_FAILURE() << "no InputError";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.problems()[0].code, "panel_inside_body");
+    }
+  }
+}
+
+TEST(Drape, ABodyWithAHoleCarriesTheClothAndIsToldOf) {
+  Scene scene = ball_scene();
+  scene.body = Body{MeshBody{ball_mesh(0.1, 16, 32)}, 0.3};
+  auto& triangles = std::get<MeshBody>(scene.body->shape).mesh.triangles;
+  triangles.erase(triangles.begin() + 300, triangles.begin() + 304);
+  CountingMonitor monitor;
+  const Drape result = drape(scene, monitor);
+  expect_consistent(result, scene);
+  EXPECT_EQ(result.report.status, "converged");
+  EXPECT_LT(result.report.penetration_max, 2e-3);
+  EXPECT_EQ(result.report.self_intersections, 0);
+  EXPECT_FALSE(result.report.warnings.empty()) << "the hole is not told of";
+}
+
+TEST(Drape, AGarmentMeshIsSewnAlongItsPairs) {
+  Scene scene;
+  scene.body = cylinder_body();
+  scene.garments = {garment_of({}, 0.03)};
+  scene.garments[0].shape = tube_mesh(0.345, 0.12, 0.14, 12, 4);
+  const auto& shape = std::get<GarmentMesh>(scene.garments[0].shape);
+  CountingMonitor monitor;
+  const Drape result = drape(scene, monitor);
+  expect_consistent(result, scene);
+  EXPECT_EQ(result.report.vertices, static_cast<long>(shape.mesh.vertices.size() - shape.seams.size()));
+  EXPECT_EQ(boundary_loops(result.cloth.triangles).size(), 2u);
+  EXPECT_LT(result.report.seam_gap_max, 1e-3);
+  EXPECT_EQ(result.report.self_intersections, 0);
+  EXPECT_LT(result.report.penetration_max, 2e-3);
+}
+
+TEST(Drape, TwoGarmentsStayInLayerOrder) {
+  Scene scene = skirt_scene();
+  scene.garments.push_back(scene.garments[0]);
+  Pattern outer_skirt = tube_pattern(0.37, 0.12, 0.19, -0.06);
+  for (Panel& panel : outer_skirt.panels) panel.edges[2].label = "lower_interface";
+  scene.garments[1].shape = outer_skirt;
+  CountingMonitor monitor;
+  const Drape result = drape(scene, monitor);
+  expect_consistent(result, scene);
+  EXPECT_EQ(result.report.self_intersections, 0);
+  double inner = 0, outer = 0, n_inner = 0, n_outer = 0;
+  for (std::size_t v = 0; v < result.cloth.x.size(); ++v) {
+    const bool is_outer = result.cloth.vertex_garment[v] == 1;
+    (is_outer ? outer : inner) += radius_of(result.cloth.x[v]);
+    ++(is_outer ? n_outer : n_inner);
+  }
+  EXPECT_GT(outer / n_outer, inner / n_inner);
+}
+
+TEST(Drape, WithoutABodyAPinnedClothHangs) {
+  Scene scene;
+  scene.garments = {garment_of(Pattern{{rectangle_panel("banner", 0.15, 0.2)}, {}}, 0.02)};
+  scene.garments[0].pins = {{PinEdge{0, 2}, PinFixed{}}};
+  CountingMonitor monitor;
+  const Drape result = drape(scene, monitor);
+  expect_consistent(result, scene);
+  EXPECT_EQ(result.report.status, "converged");
+  EXPECT_EQ(result.report.penetration_max, 0);
+  EXPECT_LT(result.report.residual_rms, 0.05);
+  EXPECT_EQ(result.report.limited_vertices, 0);
+}
+
+TEST(Drape, AnEmptyWarningListMeansNothingToSay) {
+  Scene scene = ball_scene();
+  CountingMonitor monitor;
+  const Drape result = drape(scene, monitor);
+  EXPECT_EQ(result.report.status, "converged");
+  for (const std::string& warning : result.report.warnings) ADD_FAILURE() << warning;
+  // The ball carries the weight.
+  const double weight = kGravity * scene.garments[0].fabric.area_density * 0.2 * 0.2;
+  EXPECT_GT(std::accumulate(result.contact_force.begin(), result.contact_force.end(), 0.0), 0.9 * weight);
+}
+
+TEST(Drape, OverstretchedWovenClothIsWarnedOf) {
+  Scene scene;
+  scene.garments = {garment_of(Pattern{{rectangle_panel("banner", 0.1, 0.2)}, {}}, 0.02)};
+  scene.garments[0].fabric.stretch_stiffness = {4, 4, 2};  // 10 % at the top under its own weight
+  scene.garments[0].fabric.poisson_stiffness = 0;
+  scene.garments[0].pins = {{PinEdge{0, 2}, PinFixed{}}};
+  CountingMonitor monitor;
+  const Drape result = drape(scene, monitor);
+  EXPECT_GT(result.report.stretch_warp.p99, 0.05);
+  EXPECT_TRUE(warns(result.report, "over-stretched"));
+}
+
+}  // namespace
+}  // namespace toile

@@ -1,0 +1,83 @@
+// Coulomb friction on an incline, through the whole simulation: distance field, contacts, their memory, time steps.
+
+#include "engine/solve/simulate.h"
+#include "tests/engine/solve/scenes.h"
+#include "tests/validation/references.h"
+
+#include <iostream>
+
+using namespace toile;
+using namespace toile::test;
+
+namespace {
+
+constexpr double kFriction = 0.2, kOffset = 2e-3;
+
+struct Slide {
+  double creep = 0;         ///< largest displacement of a vertex between the two times [m]
+  double acceleration = 0;  ///< downhill, of the mean, between the two times [m/s²]
+};
+
+/// A sheet of 0.1 m by 0.1 m on a plane tilted by `slope` [rad], observed from one time to another [s].
+Slide slide(double slope, double from, double to) {
+  const Vec3 normal(std::sin(slope), std::cos(slope), 0), downhill(std::cos(slope), -std::sin(slope), 0);
+  const BodyField plane = make_body_field({PlaneBody{Vec3::Zero(), normal}, kFriction}, 0.02);
+  Cloth sheet = equilateral_sheet(5, 6, 0.02, suiting(), [&](const Vec2& uv) -> Vec3 {
+    return uv.x() * downhill + uv.y() * Vec3::UnitZ() + 0.999 * kOffset * normal;
+  });
+  SimulationScene scene;
+  scene.body = &plane;
+  scene.body_friction = kFriction;
+  scene.options.body_offset = kOffset;
+  scene.options.air_drag = 0;
+  scene.options.early_stop = false;
+  scene.options.simulated_time_limit = to;
+  struct Moment {
+    double time = 0, place = 0;
+  } moments[3];  // at the beginning, in the middle, at the end
+  Positions first;
+  simulate(sheet, scene, [&](const SimulationState& state) {
+    for (int k = 0; k < 3; ++k) {
+      if (moments[k].time > 0 || state.time < from + 0.5 * k * (to - from) - 1e-9) continue;
+      double sum = 0;
+      for (const Vec3& p : *state.x) sum += p.dot(downhill);
+      moments[k] = {state.time, sum / static_cast<double>(state.x->size())};
+      if (k == 0) first = *state.x;
+    }
+    return true;
+  });
+  const auto speed = [](const Moment& a, const Moment& b) { return (b.place - a.place) / (b.time - a.time); };
+  Slide result;
+  for (std::size_t v = 0; v < sheet.x.size(); ++v)
+    result.creep = std::max(result.creep, (sheet.x[v] - first[v]).norm());
+  result.acceleration =
+      (speed(moments[1], moments[2]) - speed(moments[0], moments[1])) / (0.5 * (moments[2].time - moments[0].time));
+  return result;
+}
+
+}  // namespace
+
+TEST(FrictionReference, SticksJustBelowTheAngleOfFriction) {
+  const double slope = 0.97 * std::atan(kFriction);
+  const Slide result = slide(slope, 0.5, 2.5);
+  std::cout << "creep in 2 s: reference 0 mm, ours " << 1e3 * result.creep << " mm\n";
+  EXPECT_LT(result.creep, 1e-3);
+}
+
+TEST(FrictionReference, SlidesJustAboveItAsCoulombSays) {
+  const double slope = 1.03 * std::atan(kFriction);
+  const double expected = kGravity * (std::sin(slope) - kFriction * std::cos(slope));
+  const double ours = slide(slope, 0.5, 1.5).acceleration;
+  std::cout << "acceleration: reference " << expected << " m/s^2, ours " << ours << ", error "
+            << 100 * (ours / expected - 1) << " %\n";
+  EXPECT_NEAR(ours, expected, 0.05 * expected);
+}
+
+TEST(FrictionReference, ASteepInclineGivesTheFullAcceleration) {
+  const double slope = 0.5;
+  const double expected = kGravity * (std::sin(slope) - kFriction * std::cos(slope));
+  const double ours = slide(slope, 0.2, 0.5).acceleration;
+  std::cout << "acceleration: reference " << expected << " m/s^2, ours " << ours << ", error "
+            << 100 * (ours / expected - 1) << " %\n";
+  EXPECT_NEAR(ours, expected, 0.01 * expected);
+}
