@@ -347,6 +347,8 @@ Assembly assemble(const Scene& scene, Cloth apart, const BodyFields& fields, con
     result.open_seams = open_seams(apart);
     result.crossings = best->crossings;
     result.seam_gap_max = best->gap;
+  } else {
+    refuse_enclosed_panels(apart, field);
   }
   result.cloth = std::move(apart);
   result.old_to_new = merge_seams(result.cloth);
