@@ -2,6 +2,7 @@
 // sound; one that is not says why. Where physics leaves no doubt, the drape must converge.
 
 #include "engine/drape.h"
+#include "engine/quality/distance_between.h"
 #include "tests/engine/solve/scenes.h"
 
 #include <gtest/gtest.h>
@@ -14,12 +15,14 @@ namespace {
 
 using namespace test;
 
-constexpr double kRadius = 0.05;  ///< [m]
+constexpr double kRadius = 0.05;         ///< [m]
+constexpr double kEarlyStopCost = 2e-3;  ///< mean distance to the drape that ran on [m]
 
 struct Extreme {
   std::string name;
   void (*change)(Scene&);
   bool must_converge = true;
+  bool may_cross = false;  ///< torn so far that distances reach the doubles' resolution; must then be told
 };
 
 void PrintTo(const Extreme& extreme, std::ostream* out) { *out << extreme.name; }
@@ -136,9 +139,9 @@ const Extreme kExtremes[] = {
        PinMoved jerk;
        jerk.key_frames = {{0.2, Vec3::Zero(), Vec3::Zero()}, {0.201, Vec3(0, 0.5, 0), Vec3::Zero()}};
        s.garments[0].pins = {{PinNearest{Vec3(0, 1, 0)}, jerk}};
-       s.solver.simulated_time_limit = 0.5;
+       s.solver.simulated_time_limit = 0.2003;
      },
-     false},
+     false, true},
     {"PinsFartherApartThanTheClothIsLong",
      [](Scene& s) {
        PinMoved pull;
@@ -174,7 +177,10 @@ TEST_P(Extremes, IsAGoodDrapeOrSaysWhyNot) {
         r.stretch_weft.max, r.residual_rms, r.residual_max, r.penetration_max, r.kinetic_energy, r.simulated_time})
     EXPECT_TRUE(std::isfinite(value));
   for (double force : result.contact_force) EXPECT_TRUE(std::isfinite(force));
-  EXPECT_EQ(r.self_intersections, 0) << "cloth never passes through cloth";
+  EXPECT_EQ(warns(r, "passes through itself"), r.self_intersections > 0);
+  if (!GetParam().may_cross || r.status == "converged") {
+    EXPECT_EQ(r.self_intersections, 0) << "cloth never passes through cloth";
+  }
   if (r.status == "converged") {
     EXPECT_EQ(r.stop_reason, "at_rest");
     EXPECT_LE(r.simulated_time, scene.solver.simulated_time_limit + scene.solver.max_time_step);
@@ -188,6 +194,15 @@ TEST_P(Extremes, IsAGoodDrapeOrSaysWhyNot) {
   EXPECT_EQ(r.status, "converged");
   EXPECT_LT(r.penetration_max, 2e-3);
   EXPECT_LT(std::max(r.stretch_warp.p99, r.stretch_weft.p99), 0.05);
+
+  // What stopping early costs, against the same drape at the time limit.
+  scene.solver.early_stop = false;
+  const Drape whole = drape(scene, monitor);
+  EXPECT_EQ(whole.report.status, "converged");
+  const DrapeDistance cost = vertex_distance(result.cloth.x, whole.cloth.x);
+  std::cout << "stopping early cost " << 1e3 * cost.mean << " mm in the mean, " << 1e3 * cost.max
+            << " mm at most; residual " << r.residual_rms << " against " << whole.report.residual_rms << "\n";
+  EXPECT_LT(cost.mean, kEarlyStopCost);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scene, Extremes, ::testing::ValuesIn(kExtremes),
