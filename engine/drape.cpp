@@ -53,9 +53,7 @@ bool has_panel_of_legs(const Cloth& cloth) {
 
 struct Bodies {
   std::optional<BodyField> whole, without_overhangs;
-  BodyFields fields() const {
-    return {whole ? &*whole : nullptr, without_overhangs ? &*without_overhangs : nullptr};
-  }
+  BodyFields fields() const { return {whole ? &*whole : nullptr, without_overhangs ? &*without_overhangs : nullptr}; }
 };
 
 Bodies make_bodies(const Scene& scene, const Cloth& cloth) {

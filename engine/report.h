@@ -12,7 +12,7 @@ struct StretchStatistics {
 };
 
 struct StageTimes {
-  double assemble = 0, drape = 0, render = 0, total = 0;                       ///< wall [s]
+  double assemble = 0, drape = 0, render = 0, total = 0;                                               ///< wall [s]
   double collisions = 0, derivatives = 0, assembly = 0, linear_solve = 0, line_search = 0, other = 0;  ///< of drape
 };
 

@@ -10,7 +10,7 @@
 namespace toile {
 
 struct ClothPanel {
-  int garment = 0;         ///< index into Scene::garments
+  int garment = 0;  ///< index into Scene::garments
   std::string name, label;
   int fabric = 0;          ///< index into Cloth::fabrics
   double edge_length = 0;  ///< target [m]
@@ -33,17 +33,17 @@ struct LabelledVertices {
 /// vertex of each joined set and leaves seam_pairs empty. A vertex then has one position and, through the triangles
 /// around it, a flat position per panel.
 struct Cloth {
-  Positions x;                                  ///< [m]
-  std::vector<Triangle> triangles;              ///< outward (right side of the fabric) counter-clockwise
-  std::vector<std::array<Vec2, 3>> flat;        ///< rest corners [m] as drawn: u weft, v warp; signed area may be < 0
-  std::vector<int> triangle_panel;              ///< index into panels
-  std::vector<int> vertex_garment;              ///< index into Scene::garments
+  Positions x;                            ///< [m]
+  std::vector<Triangle> triangles;        ///< outward (right side of the fabric) counter-clockwise
+  std::vector<std::array<Vec2, 3>> flat;  ///< rest corners [m] as drawn: u weft, v warp; signed area may be < 0
+  std::vector<int> triangle_panel;        ///< index into panels
+  std::vector<int> vertex_garment;        ///< index into Scene::garments
   std::vector<ClothPanel> panels;
   std::vector<Fabric> fabrics;
   std::vector<SeamPair> seam_pairs;
-  std::vector<std::string> seam_names;          ///< "panelA/3 – panelB/5"
+  std::vector<std::string> seam_names;  ///< "panelA/3 – panelB/5"
   std::vector<LabelledVertices> labels;
-  std::vector<std::string> warnings;            ///< said once each, for the report
+  std::vector<std::string> warnings;  ///< said once each, for the report
 };
 
 }  // namespace toile

@@ -18,16 +18,16 @@ struct Directional {
 /// Bending energy per hinge as in terms/bending.h with D interpolated between the three directions.
 struct Fabric {
   std::string name;
-  double area_density = 0;          ///< [kg/m²]
-  Directional stretch_stiffness;    ///< C_warp, C_weft [N/m]; bias: the shear modulus G [N/m]
-  double poisson_stiffness = 0;     ///< C_poisson, the coupling C12 [N/m]; C12² < C_warp C_weft
-  Directional bending_stiffness;    ///< the textile (cylindrical) D per width [N·m]
-  double thickness = 0;             ///< [m]
-  double friction_cloth = 0;        ///< Coulomb coefficient against itself
-  double friction_body = 0;         ///< Coulomb coefficient against bodies, where the body gives none
-  double membrane_damping = 1e-2;   ///< beta_s of the first seed's §5.3 [s]
-  double bending_damping = 1e-1;    ///< beta_b of the first seed's §5.3 [s]
-  bool woven = true;                ///< false for knits; the report's stretch warnings depend on it
+  double area_density = 0;         ///< [kg/m²]
+  Directional stretch_stiffness;   ///< C_warp, C_weft [N/m]; bias: the shear modulus G [N/m]
+  double poisson_stiffness = 0;    ///< C_poisson, the coupling C12 [N/m]; C12² < C_warp C_weft
+  Directional bending_stiffness;   ///< the textile (cylindrical) D per width [N·m]
+  double thickness = 0;            ///< [m]
+  double friction_cloth = 0;       ///< Coulomb coefficient against itself
+  double friction_body = 0;        ///< Coulomb coefficient against bodies, where the body gives none
+  double membrane_damping = 1e-2;  ///< beta_s of the first seed's §5.3 [s]
+  double bending_damping = 1e-1;   ///< beta_b of the first seed's §5.3 [s]
+  bool woven = true;               ///< false for knits; the report's stretch warnings depend on it
   bool operator==(const Fabric&) const = default;
 };
 

@@ -38,7 +38,7 @@ struct PatternEdge {
 /// of the panel's frame; a clockwise one along −z. Grain (warp) along +y.
 struct Panel {
   std::string name;
-  std::string label;  ///< "", "body", "arm", "leg"
+  std::string label;           ///< "", "body", "arm", "leg"
   std::vector<Vec2> vertices;  ///< [m]
   std::vector<PatternEdge> edges;
   Mat3 rotation = Mat3::Identity();  ///< panel frame to world: P = rotation · (x, y, 0) + translation

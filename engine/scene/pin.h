@@ -28,9 +28,9 @@ struct PinNearest {
 /// Rigid motion at a time: rotate about `pivot` by the rotation vector, then translate. Linear between key frames,
 /// constant before the first and after the last.
 struct PinKeyFrame {
-  double time = 0;                       ///< [s]
-  Vec3 translation = Vec3::Zero();       ///< [m]
-  Vec3 rotation_vector = Vec3::Zero();   ///< [rad]
+  double time = 0;                      ///< [s]
+  Vec3 translation = Vec3::Zero();      ///< [m]
+  Vec3 rotation_vector = Vec3::Zero();  ///< [rad]
 };
 
 struct PinFixed {};
