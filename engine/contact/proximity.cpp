@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kBlock = 512;  // features per task; blocks are joined in order, so the lists don't depend on threads
 constexpr double kBoundFraction = 0.45;    // of the nearest distance; below ½ with room for rounding
+constexpr double kRoundOff = 1e-8;          // [m] of the distance is never used up, or rounding could cross it
 constexpr double kRebuildFraction = 0.25;  // of the list radius, moved by any vertex
 constexpr double kFeatureTolerance = 1e-9;  // a weight below this means that the closest point lies on a sub-feature
 
@@ -188,7 +189,7 @@ void Proximity::update(const Positions& x) {
     c.key = key_of(c);
     if (seen.insert(c.key).second) contacts_.push_back(c);
   }
-  for (double& bound : bounds_) bound *= kBoundFraction;
+  for (double& bound : bounds_) bound = kBoundFraction * std::max(0.0, bound - kRoundOff);
 }
 
 long limit_displacements(const Positions& from, const std::vector<double>& bounds, Positions& x) {

@@ -4,6 +4,7 @@
 #include "engine/monitor.h"
 #include "engine/quality/intersections.h"
 #include "engine/scene/problem.h"
+#include "engine/solve/body_parts.h"
 #include "engine/solve/clear_panels.h"
 #include "engine/solve/position_based.h"
 #include "engine/solve/untangle.h"
@@ -35,8 +36,6 @@ constexpr Manner kManners[] = {{6e-3, 0.6, {2, false}}, {3e-3, 0.85, {3, false}}
                                {6e-3, 0.85, {4, false}}, {2e-3, 0.7, {3, false}}};
 constexpr SeamZone kWideZone{6, true};  // for seams that stay open
 constexpr int kFallingSteps = 400;      // a skirt sewn through raised arms falls below them
-constexpr double kHangs = 5e-3;         // [m] outside the body without overhangs
-constexpr std::size_t kSampledTriangles = 20;  // every so many
 constexpr double kSlitGap = 2e-4;       // [m]
 constexpr double kListRadius = 12e-3;   // [m] wide: panels travel far
 
@@ -59,38 +58,6 @@ double body_offset(const Cloth& cloth, const SolverOptions& solver) {
   for (const ClothPanel& panel : cloth.panels)
     offset = std::max(offset, default_body_offset(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
   return offset;
-}
-
-/// Sleeves by their place where the pattern has no labels: a panel most of whose vertices lie nearest to a part of the
-/// body that hangs from above.
-std::vector<std::string> part_of_panels(const Cloth& cloth, int garment, const BodyFields& fields) {
-  std::vector<std::string> part(cloth.panels.size());
-  bool labelled = false;
-  for (std::size_t p = 0; p < part.size(); ++p) {
-    part[p] = cloth.panels[p].label;
-    labelled = labelled || (cloth.panels[p].garment == garment && part[p] == "arm");
-  }
-  if (labelled || !fields.without_overhangs) return part;
-  const TriangleMesh body = fields.whole->surface();
-  std::vector<char> hangs(body.vertices.size());
-  for (std::size_t i = 0; i < hangs.size(); ++i)
-    hangs[i] = fields.without_overhangs->distance(body.vertices[i]) > kHangs;
-  std::vector<int> near_arm(part.size(), 0), all(part.size(), 0);
-  for (std::size_t t = 0; t < cloth.triangles.size(); t += kSampledTriangles) {
-    const int p = cloth.triangle_panel[t];
-    if (cloth.panels[p].garment != garment) continue;
-    double best = std::numeric_limits<double>::infinity();
-    std::size_t nearest = 0;
-    for (std::size_t i = 0; i < hangs.size(); ++i) {
-      const double d = (body.vertices[i] - cloth.x[cloth.triangles[t][0]]).squaredNorm();
-      if (d < best) best = d, nearest = i;
-    }
-    ++all[p];
-    near_arm[p] += hangs[nearest];
-  }
-  for (std::size_t p = 0; p < part.size(); ++p)
-    if (all[p] > 0 && 2 * near_arm[p] > all[p]) part[p] = "arm";
-  return part;
 }
 
 /// A tailor's order: first the seams that make tubes of each part (a torso, a sleeve), then those that join the parts,
@@ -334,6 +301,7 @@ Assembly assemble(const Scene& scene, Cloth apart, const BodyFields& fields, con
     }
 
   if (!apart.seam_pairs.empty()) {
+    center_sleeves(apart, fields);
     clear_panels(apart, field, offset, 0.4);
     open_slits(apart, kSlitGap);
     const Sewing sewing{scene, fields, field, keep, held, offset};

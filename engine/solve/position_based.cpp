@@ -7,6 +7,11 @@
 #include <map>
 
 namespace toile {
+namespace {
+
+constexpr double kCutting = -4e-3;  // [m] a seam whose middle is deeper inside the body than this would cut through a limb
+
+}  // namespace
 
 PositionBased::PositionBased(const Cloth& cloth, CollisionMesh mesh, double list_radius,
                              std::vector<const BodyField*> body_of_vertex)
@@ -111,14 +116,30 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
       if (body_[v]) body_samples_[v] = body_[v]->sample(start[v]);
   });
   std::vector<double> allowed(meeting_.size(), 0.0);  // distance from the mean
+  std::vector<char> cutting(meeting_.size(), 0);
   for (std::size_t i = 0; i < meeting_.size(); ++i) {
     const Vec3 mean = mean_of(meeting_[i], start);
     for (int v : meeting_[i]) allowed[i] = std::max(allowed[i], (start[v] - mean).norm() - 0.5 * options.closing);
+    const BodyField* body = body_[meeting_[i].front()];
+    cutting[i] = body && body->distance(mean) < kCutting;
   }
+
+  const auto draw = [&](bool last) {
+    for (std::size_t i = 0; i < meeting_.size(); ++i) {
+      if (last && cutting[i]) continue;
+      const Vec3 mean = mean_of(meeting_[i], x);
+      for (int v : meeting_[i]) {
+        const Vec3 arm = x[v] - mean;
+        const double length = arm.norm();
+        if (mobility[v] > 0 && length > allowed[i]) x[v] = mean + arm * (allowed[i] / length);
+      }
+    }
+  };
 
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     for (const Length& c : bends_) project(x, c, options.bending);
     for (const Length& c : stretch_) project(x, c, 1.0);
+    draw(false);
     for (const Contact& c : contacts_) {
       Vec3 p = Vec3::Zero();
       double weight = 0;
@@ -139,15 +160,8 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
     }
     for (int v = 0; v < n; ++v)
       if (keep_height[v]) x[v].y() = std::max(x[v].y(), floor_[v]);
-    // Last, since a seam has to close even in an armpit narrower than the offset.
-    for (std::size_t i = 0; i < meeting_.size(); ++i) {
-      const Vec3 mean = mean_of(meeting_[i], x);
-      for (int v : meeting_[i]) {
-        const Vec3 arm = x[v] - mean;
-        const double length = arm.norm();
-        if (mobility[v] > 0 && length > allowed[i]) x[v] = mean + arm * (allowed[i] / length);
-      }
-    }
+    // Last, since a seam has to close even in an armpit narrower than the offset; but not where it would cut into an arm.
+    draw(true);
   }
 
   largest_move_ = 0;

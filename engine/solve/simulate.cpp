@@ -18,13 +18,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kListRadius = 5e-3;  // [m] at least: lets fine meshes fall at over a metre a second
+
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Finds what touches, and remembers friction from step to step.
 class Touching {
  public:
   Touching(const Cloth& cloth, const SimulationScene& scene)
-      : proximity_(make_collision_mesh(cloth, scene.options.contact_distance), 0.0), body_(scene.body) {
+      : proximity_(make_collision_mesh(cloth, scene.options.contact_distance), kListRadius), body_(scene.body) {
     double friction = 0;
     for (const Fabric& fabric : cloth.fabrics) friction = std::max(friction, fabric.friction_body);
     body_options_.friction = scene.body_friction >= 0 ? scene.body_friction : friction;
