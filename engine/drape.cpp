@@ -51,6 +51,18 @@ bool has_panel_of_legs(const Cloth& cloth) {
   return std::any_of(cloth.panels.begin(), cloth.panels.end(), [](const ClothPanel& p) { return p.label == "leg"; });
 }
 
+/// The reference rung: tolerances a hundred to a thousand times tighter, and no early stop.
+SolverOptions options_of(const Scene& scene) {
+  SolverOptions options = scene.solver;
+  if (scene.fidelity != Fidelity::reference) return options;
+  options.newton_tolerance = std::min(options.newton_tolerance, 1e-6);
+  options.newton_momentum_fraction = std::min(options.newton_momentum_fraction, 1e-3);
+  options.cg_tolerance = std::min(options.cg_tolerance, 1e-4);
+  options.newton_iterations = std::max(options.newton_iterations, 10);
+  options.early_stop = false;
+  return options;
+}
+
 struct Bodies {
   std::optional<BodyField> whole, without_overhangs;
   BodyFields fields() const { return {whole ? &*whole : nullptr, without_overhangs ? &*without_overhangs : nullptr}; }
@@ -129,7 +141,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
     report.time.drape = seconds_since(started) - report.time.assemble;
     report.warnings.push_back("preview: positions only, no forces; not an equilibrium of the fabric");
   } else {
-    SimulationScene simulated{scene.solver, bodies.fields().whole, scene.body ? scene.body->friction : 0.0,
+    SimulationScene simulated{options_of(scene), bodies.fields().whole, scene.body ? scene.body->friction : 0.0,
                               held_vertices(scene, result.cloth, assembly.attached)};
     const Simulation simulation = simulate(result.cloth, simulated, [&](const SimulationState& state) {
       const bool relaxing = state.time < scene.solver.relaxation_time;

@@ -27,6 +27,7 @@ void for_each_solver_key(Options& o, Visit visit) {
   visit("body_offset_mm", o.body_offset, 1e-3);
   visit("rest_kinetic_energy_j", o.rest_kinetic_energy, 1.0);
   visit("rest_window_s", o.rest_window, 1.0);
+  visit("rest_residual", o.rest_residual, 1.0);
   visit("early_stop", o.early_stop, 1.0);
   visit("gravity", o.gravity, 1.0);
   visit("threads", o.threads, 1.0);

@@ -10,8 +10,8 @@
 namespace toile {
 
 struct BodyContactOptions {
-  double offset = 3e-3;    ///< vertices are repelled from the surface up to here [m]
-  double friction = 0.3;   ///< Coulomb coefficient
+  double offset = 3e-3;   ///< vertices are repelled from the surface up to here [m]
+  double friction = 0.3;  ///< Coulomb coefficient
 };
 
 /// Vertices nearer to the body than `offset`; and midpoints of edges nearer than half of it, so that the chord of a

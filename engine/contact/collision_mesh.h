@@ -16,14 +16,15 @@ struct CollisionMesh {
   std::vector<Triangle> triangles;
   std::vector<std::array<int, 2>> edges;
   std::vector<int> identity;
-  std::vector<int> panel;                   ///< per vertex, where only features of different panels share zones; else empty
+  std::vector<int> panel;  ///< per vertex, where only features of different panels share zones; else empty
   std::vector<std::vector<int>> seam_zone;  ///< per vertex: identities of seam vertices nearby, ascending; empty: none
   std::vector<double> distance;  ///< per vertex: cloth–cloth repulsion starts here [m]; a pair takes its smallest
   std::vector<double> friction;  ///< per vertex: cloth–cloth Coulomb coefficient; a pair takes the mean of its nodes
 };
 
 /// How far the mid-surface stays off the body [m]: half the fabric's thickness, or a tenth of an edge, at most 1.5 mm,
-/// where that is more, so that a coarse chord does not cut into the skin. It makes a tight band longer by 2π times itself.
+/// where that is more, so that a coarse chord does not cut into the skin. It makes a tight band longer by 2π times
+/// itself.
 double default_body_offset(double thickness, double edge_length);
 
 /// Contact distance of a fabric of `thickness` on a mesh of `edge_length` [m]: no thinner than the fabric, and wide

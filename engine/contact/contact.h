@@ -16,13 +16,13 @@ namespace toile {
 struct Contact {
   std::array<int, 4> nodes{};
   std::array<double, 4> weights{};
-  int count = 0;            ///< nodes in use
+  int count = 0;  ///< nodes in use
   Vec3 normal = Vec3::Zero();
-  double offset = 0;        ///< [m]
-  double distance = 0;      ///< [m]
-  double friction = 0;      ///< Coulomb coefficient
+  double offset = 0;           ///< [m]
+  double distance = 0;         ///< [m]
+  double friction = 0;         ///< Coulomb coefficient
   Vec3 anchor = Vec3::Zero();  ///< [m]
-  std::uint64_t key = 0;    ///< the same pair of features has the same key from step to step
+  std::uint64_t key = 0;       ///< the same pair of features has the same key from step to step
 };
 
 }  // namespace toile

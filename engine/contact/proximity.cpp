@@ -13,9 +13,9 @@ namespace toile {
 namespace {
 
 constexpr int kBlock = 512;  // features per task; blocks are joined in order, so the lists don't depend on threads
-constexpr double kBoundFraction = 0.45;    // of the nearest distance; below ½ with room for rounding
+constexpr double kBoundFraction = 0.45;     // of the nearest distance; below ½ with room for rounding
 constexpr double kRoundOff = 1e-8;          // [m] of the distance is never used up, or rounding could cross it
-constexpr double kRebuildFraction = 0.25;  // of the list radius, moved by any vertex
+constexpr double kRebuildFraction = 0.25;   // of the list radius, moved by any vertex
 constexpr double kFeatureTolerance = 1e-9;  // a weight below this means that the closest point lies on a sub-feature
 
 Box box_of(const Positions& x, const int* nodes, int count, double margin) {

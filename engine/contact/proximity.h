@@ -5,8 +5,8 @@
 // hierarchies and stays valid until a vertex has moved by a quarter of that radius. Distances of the listed pairs are
 // exact at every update. With d_v the distance from anything that vertex v belongs to, to the nearest other feature,
 // moving every vertex by less than ½ d_v can't make features cross (both sides of a pair lose less than its distance).
-// This is the displacement bound of Chen, Hsu, Liu, Macklin, Yang and Yuksel, "Offset Geometric Contact", SIGGRAPH 2025,
-// §4; it makes discrete detection safe where the first seed (§3.3) relies on small steps alone.
+// This is the displacement bound of Chen, Hsu, Liu, Macklin, Yang and Yuksel, "Offset Geometric Contact", SIGGRAPH
+// 2025, §4; it makes discrete detection safe where the first seed (§3.3) relies on small steps alone.
 
 #include "engine/contact/collision_mesh.h"
 #include "engine/contact/contact.h"

@@ -24,16 +24,21 @@ constexpr int kClosingSteps = 1500;     // at most, per garment
 constexpr int kPatience = 150;          // steps without a smaller gap, after which a stage of the closing is over
 constexpr int kRelaxingSteps = 150;     // after closing: evens out the stretch of the closing
 constexpr int kUntanglingRounds = 200;  // at most: seam zones that went through each other come free
+constexpr int kRoundsUntilLoosened = 25;
 constexpr double kUntanglingStep = 2e-3;  // [m] per round
 
-/// A way of sewing. Which one leads to no tangle can't be foreseen, so they are tried in this order, each from the start.
+/// A way of sewing. Which one leads to no tangle can't be foreseen, so they are tried in this order, each from the
+/// start.
 struct Manner {
   double closing;  // of a gap per step [m]
   double carry;    // damped inertia
   SeamZone zone;   // where the two sides of a seam pass through each other
 };
-constexpr Manner kManners[] = {{6e-3, 0.6, {2, false}}, {3e-3, 0.85, {3, false}}, {3e-3, 0.6, {2, false}},
-                               {6e-3, 0.85, {4, false}}, {2e-3, 0.7, {3, false}}};
+constexpr Manner kManners[] = {{6e-3, 0.6, {2, false}},
+                               {3e-3, 0.85, {3, false}},
+                               {3e-3, 0.6, {2, false}},
+                               {6e-3, 0.85, {4, false}},
+                               {2e-3, 0.7, {3, false}}};
 constexpr SeamZone kWideZone{6, true};  // for seams that stay open
 constexpr int kFallingSteps = 400;      // a skirt sewn through raised arms falls below them
 constexpr double kSlitGap = 2e-4;       // [m]
@@ -71,8 +76,7 @@ std::vector<std::vector<SeamPull>> seams_in_order(const Cloth& cloth, int garmen
   for (const SeamPair& pair : cloth.seam_pairs) {
     if (cloth.vertex_garment[pair.a] != garment) continue;
     all.push_back({pair.a, pair.b});
-    if (part[panel_of_vertex[pair.a]] == part[panel_of_vertex[pair.b]])
-      within.push_back({pair.a, pair.b});
+    if (part[panel_of_vertex[pair.a]] == part[panel_of_vertex[pair.b]]) within.push_back({pair.a, pair.b});
   }
   if (within.size() == all.size()) return {all};
   return {within, all};
@@ -105,45 +109,88 @@ void close_seams(Stage& stage, PositionBased& solver, Cloth& cloth, int garment,
   }
 }
 
-/// The cloth as it would be if every seam were closed now: seam vertices in their common mean.
-struct Closed {
-  std::vector<int> root;
-  Positions x;                      // at roots
-  std::vector<Triangle> triangles;  // of roots
+struct Sewing {
+  const Scene& scene;
+  const BodyFields& fields;
+  const std::vector<const BodyField*>& field;
+  const std::vector<char>&keep, &held;
+  double offset;
 };
-Closed as_closed(const Cloth& cloth) {
-  Closed sewn{seam_representatives(cloth), Positions(cloth.x.size(), Vec3::Zero()), cloth.triangles};
-  std::vector<int> count(cloth.x.size(), 0);
-  for (std::size_t v = 0; v < cloth.x.size(); ++v) {
-    sewn.x[sewn.root[v]] += cloth.x[v];
-    ++count[sewn.root[v]];
-  }
-  for (std::size_t v = 0; v < cloth.x.size(); ++v)
-    if (count[v] > 0) sewn.x[v] /= count[v];
-  for (Triangle& t : sewn.triangles)
-    for (int& v : t) v = sewn.root[v];
-  return sewn;
+
+/// The collision mesh of a sewn cloth in which the zones of its seams, given for the apart one, still pass through
+/// each other.
+CollisionMesh with_zones(const Cloth& sewn, const std::vector<int>& old_to_new, const CollisionMesh& apart,
+                         double contact_distance) {
+  CollisionMesh mesh = make_collision_mesh(sewn, contact_distance);
+  std::vector<std::set<int>> zones(sewn.x.size());
+  for (std::size_t v = 0; v < old_to_new.size(); ++v)
+    if (old_to_new[v] >= 0) zones[old_to_new[v]].insert(apart.seam_zone[v].begin(), apart.seam_zone[v].end());
+  for (const std::set<int>& zone : zones) mesh.seam_zone.emplace_back(zone.begin(), zone.end());
+  return mesh;
 }
 
-/// Goes on until nothing crosses: bending lays the two sides of a seam flat beside each other, and what is still
-/// through something is drawn out. Returns the pairs of triangles that cross in the end.
-std::size_t untangle(Stage& stage, PositionBased& solver, Cloth& cloth, double offset) {
-  PositionBasedOptions options;
-  options.body_offset = offset;
-  options.carry = 0.5;
-  options.bending = 0.3;
-  for (int s = 0;; ++s) {
-    const Closed sewn = as_closed(cloth);
-    const std::vector<TrianglePair> crossings = self_intersections(sewn.x, sewn.triangles);
-    if (crossings.empty() || s >= kUntanglingRounds) return crossings.size();
-    const Positions moves = untangling_moves(sewn.x, sewn.triangles, crossings, kUntanglingStep);
-    Positions moved = cloth.x;
-    for (std::size_t v = 0; v < cloth.x.size(); ++v)
-      if (solver.mobility[v] > 0) moved[v] += moves[sewn.root[v]];
-    limit_displacements(cloth.x, solver.displacement_bounds(cloth.x), moved);
-    cloth.x = moved;
-    for (int k = 0; k < 3; ++k) stage.step(solver, cloth.x, options, 0.9);
+/// What still crosses is held in place by its own contacts: within two edges around it, features ignore each other.
+CollisionMesh loosened(CollisionMesh mesh, const std::vector<Triangle>& triangles,
+                       const std::vector<TrianglePair>& crossings) {
+  std::vector<char> loose(mesh.distance.size(), 0);
+  for (const TrianglePair& pair : crossings)
+    for (int t : {pair.a, pair.b})
+      for (int v : triangles[t]) loose[v] = 1;
+  for (int round = 0; round < 2; ++round) {
+    const std::vector<char> before = loose;
+    for (const auto& [a, b] : mesh.edges)
+      if (before[a] || before[b]) loose[a] = loose[b] = 1;
   }
+  constexpr int kLoose = -1;  // a zone of its own
+  for (std::size_t v = 0; v < loose.size(); ++v)
+    if (loose[v]) mesh.seam_zone[v].insert(mesh.seam_zone[v].begin(), kLoose);
+  return mesh;
+}
+
+/// Goes on with closed seams until nothing crosses: bending across the seams lays their sides flat beside each other,
+/// and what is still through something is drawn out. Returns the pairs of triangles that cross in the end.
+std::size_t untangle(Stage& stage, const Sewing& sewing, Cloth& cloth, const CollisionMesh& zones) {
+  Cloth sewn = cloth;
+  const std::vector<int> old_to_new = merge_seams(sewn);
+  std::vector<const BodyField*> field(sewn.x.size(), sewing.fields.whole);
+  std::vector<char> keep(sewn.x.size(), 0);
+  std::vector<double> mobility(sewn.x.size(), 1);
+  for (std::size_t v = 0; v < old_to_new.size(); ++v) {
+    const int w = old_to_new[v];
+    if (w < 0) continue;
+    if (sewing.field[v] != sewing.fields.whole) field[w] = sewing.field[v];
+    keep[w] |= sewing.keep[v];
+    if (sewing.held[v]) mobility[w] = 0;
+  }
+  const CollisionMesh mesh = with_zones(sewn, old_to_new, zones, sewing.scene.solver.contact_distance);
+  std::optional<PositionBased> solver;
+  const auto start_with = [&](const CollisionMesh& with) {
+    solver.emplace(sewn, with, kListRadius, field);
+    solver->keep_height = keep;
+    solver->mobility = mobility;
+  };
+  start_with(mesh);
+  PositionBasedOptions options;
+  options.body_offset = sewing.offset;
+  options.carry = 0.5;
+  options.bending = 0.5;
+  std::size_t crossing = 0;
+  for (int s = 0;; ++s) {
+    const std::vector<TrianglePair> crossings = self_intersections(sewn.x, sewn.triangles);
+    crossing = crossings.size();
+    if (crossings.empty() || s >= kUntanglingRounds) break;
+    if (s > 0 && s % kRoundsUntilLoosened == 0) start_with(loosened(mesh, sewn.triangles, crossings));
+    const Positions moves = untangling_moves(sewn.x, sewn.triangles, crossings, kUntanglingStep);
+    Positions moved = sewn.x;
+    for (std::size_t v = 0; v < sewn.x.size(); ++v)
+      if (mobility[v] > 0) moved[v] += moves[v];
+    limit_displacements(sewn.x, solver->displacement_bounds(sewn.x), moved);
+    sewn.x = moved;
+    for (int k = 0; k < 3; ++k) stage.step(*solver, sewn.x, options, 0.9);
+  }
+  for (std::size_t v = 0; v < old_to_new.size(); ++v)
+    if (old_to_new[v] >= 0) cloth.x[v] = sewn.x[old_to_new[v]];
+  return crossing;
 }
 
 /// Seam vertices move into their common mean, never farther at once than nothing can cross.
@@ -201,14 +248,6 @@ std::vector<std::string> open_seams(const Cloth& cloth) {
   return names;
 }
 
-struct Sewing {
-  const Scene& scene;
-  const BodyFields& fields;
-  const std::vector<const BodyField*>& field;
-  const std::vector<char>&keep, &held;
-  double offset;
-};
-
 /// What one manner of sewing came to.
 struct Sewn {
   Positions x;
@@ -224,8 +263,8 @@ Sewn sew(Stage& stage, const Sewing& sewing, Cloth cloth, const Manner& manner) 
   const int garments = static_cast<int>(sewing.scene.garments.size());
   Sewn sewn;
   for (const SeamZone& zone : {manner.zone, kWideZone}) {
-    PositionBased solver(cloth, make_collision_mesh(cloth, sewing.scene.solver.contact_distance, zone), kListRadius,
-                         sewing.field);
+    const CollisionMesh mesh = make_collision_mesh(cloth, sewing.scene.solver.contact_distance, zone);
+    PositionBased solver(cloth, mesh, kListRadius, sewing.field);
     solver.keep_height = sewing.keep;
     for (int g = 0; g < garments; ++g) {
       for (std::size_t v = 0; v < cloth.x.size(); ++v)
@@ -235,8 +274,8 @@ Sewn sew(Stage& stage, const Sewing& sewing, Cloth cloth, const Manner& manner) 
     }
     sewn.open = open_seams(cloth).size();
     if (sewn.open > 0) continue;
-    sewn.crossings = untangle(stage, solver, cloth, sewing.offset);
     sewn.gap = meet(solver, cloth);
+    sewn.crossings = untangle(stage, sewing, cloth, mesh);
     break;
   }
   if (sewn.open > 0) sewn.gap = seam_gap_max(cloth);

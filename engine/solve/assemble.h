@@ -19,20 +19,20 @@ struct BodyFields {
 };
 
 struct Assembly {
-  Cloth cloth;                        ///< seams merged where they closed
-  double seam_gap_max = 0;            ///< before merging [m]
+  Cloth cloth;                          ///< seams merged where they closed
+  double seam_gap_max = 0;              ///< before merging [m]
   std::vector<std::string> open_seams;  ///< seams that did not close; empty: assembled
-  std::size_t crossings = 0;          ///< pairs of triangles that cross at the end of the sewing; 0: sound
+  std::size_t crossings = 0;            ///< pairs of triangles that cross at the end of the sewing; 0: sound
   long steps = 0;
-  std::vector<int> attached;          ///< vertices of the sewn cloth that Pin::attached holds
-  std::vector<int> old_to_new;        ///< vertex of the apart cloth → of the sewn one
+  std::vector<int> attached;    ///< vertices of the sewn cloth that Pin::attached holds
+  std::vector<int> old_to_new;  ///< vertex of the apart cloth → of the sewn one
 };
 
 struct AssemblyState {
-  double fraction = 0;       ///< done, estimated
-  double largest_gap = 0;    ///< of the seams being closed [m]
-  double largest_move = 0;   ///< of any vertex in the step [m]
-  long contacts = 0;         ///< cloth–cloth
+  double fraction = 0;      ///< done, estimated
+  double largest_gap = 0;   ///< of the seams being closed [m]
+  double largest_move = 0;  ///< of any vertex in the step [m]
+  long contacts = 0;        ///< cloth–cloth
   const Positions* x = nullptr;
 };
 /// Called once per step; false cancels (throws Cancelled).

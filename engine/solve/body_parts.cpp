@@ -56,7 +56,9 @@ Vec3 centering_move(const Positions& panel, const Vec3& normal, const Positions&
     from = std::min(from, axis.dot(p));
     to = std::max(to, axis.dot(p));
   }
-  const auto bin_of = [&](const Vec3& p) { return static_cast<int>(std::floor(kBins * (axis.dot(p) - from) / (to - from))); };
+  const auto bin_of = [&](const Vec3& p) {
+    return static_cast<int>(std::floor(kBins * (axis.dot(p) - from) / (to - from)));
+  };
   Extents of_panel, of_limb;
   for (const Vec3& p : panel) of_panel.add(std::clamp(bin_of(p), 0, kBins - 1), across.dot(p));
   for (const Vec3& p : near)

@@ -9,8 +9,8 @@
 
 namespace toile {
 
-/// Per panel its pattern's label; where a garment's pattern labels no panel "arm", a panel most of which lies nearest to
-/// a part of the body that hangs from above is "arm", too.
+/// Per panel its pattern's label; where a garment's pattern labels no panel "arm", a panel most of which lies nearest
+/// to a part of the body that hangs from above is "arm", too.
 std::vector<std::string> part_of_panels(const Cloth& cloth, int garment, const BodyFields& fields);
 
 /// Moves every panel of an arm across the arm, in its own plane, until the arm runs through its middle. Patterns place

@@ -9,7 +9,8 @@
 namespace toile {
 namespace {
 
-constexpr double kCutting = -4e-3;  // [m] a seam whose middle is deeper inside the body than this would cut through a limb
+constexpr double kCutting =
+    -4e-3;  // [m] a seam whose middle is deeper inside the body than this would cut through a limb
 
 }  // namespace
 
@@ -160,7 +161,8 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
     }
     for (int v = 0; v < n; ++v)
       if (keep_height[v]) x[v].y() = std::max(x[v].y(), floor_[v]);
-    // Last, since a seam has to close even in an armpit narrower than the offset; but not where it would cut into an arm.
+    // Last, since a seam has to close even in an armpit narrower than the offset; but not where it would cut into an
+    // arm.
     draw(true);
   }
 

@@ -17,13 +17,13 @@ struct SeamPull {
 };
 
 struct PositionBasedOptions {
-  double closing = 3e-3;        ///< of a seam's gap in one step [m]
-  double carry = 0.85;          ///< share of the last step's movement that goes on (damped inertia)
-  double max_move = 4e-3;       ///< per vertex and step [m]
-  double bending = 0.1;         ///< share of a bend's correction taken per iteration
-  int iterations = 8;           ///< sweeps over all constraints per step
-  double body_offset = 3e-3;    ///< cloth stays this far off the body [m]
-  Vec3 fall = Vec3::Zero();     ///< added to every free vertex's movement per step [m]: gravity
+  double closing = 3e-3;      ///< of a seam's gap in one step [m]
+  double carry = 0.85;        ///< share of the last step's movement that goes on (damped inertia)
+  double max_move = 4e-3;     ///< per vertex and step [m]
+  double bending = 0.1;       ///< share of a bend's correction taken per iteration
+  int iterations = 8;         ///< sweeps over all constraints per step
+  double body_offset = 3e-3;  ///< cloth stays this far off the body [m]
+  Vec3 fall = Vec3::Zero();   ///< added to every free vertex's movement per step [m]: gravity
 };
 
 class PositionBased {

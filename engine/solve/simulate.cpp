@@ -18,7 +18,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kListRadius = 5e-3;  // [m] at least: lets fine meshes fall at over a metre a second
+constexpr double kForceCheckInterval = 0.01;  // [s]
+constexpr double kListRadius = 5e-3;          // [m] at least: lets fine meshes fall at over a metre a second
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -33,8 +34,8 @@ class Touching {
     body_options_.offset = scene.options.body_offset;
     if (body_options_.offset > 0) return;
     for (const ClothPanel& panel : cloth.panels)
-      body_options_.offset = std::max(
-          body_options_.offset, default_body_offset(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
+      body_options_.offset =
+          std::max(body_options_.offset, default_body_offset(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
   }
 
   std::vector<Contact> detect(const Positions& x) {
@@ -62,6 +63,18 @@ class Touching {
   FrictionMemory memory_;
 };
 
+/// Of the net force over nodal weight, on free vertices.
+double rms_residual(const Positions& force, const std::vector<double>& mass, const std::vector<char>& held) {
+  double sum = 0;
+  long count = 0;
+  for (std::size_t v = 0; v < force.size(); ++v) {
+    if (held[v] || mass[v] <= 0) continue;
+    sum += force[v].squaredNorm() / std::pow(mass[v] * kGravity, 2);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
+}
+
 bool finite(const Positions& positions) {
   return std::all_of(positions.begin(), positions.end(), [](const Vec3& p) { return p.allFinite(); });
 }
@@ -86,7 +99,8 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   for (const HeldVertex& held : scene.held) kinematic.held[held.vertex] = 1;
   const double moving_until = std::max(last_key_frame(scene.held), options.relaxation_time);
 
-  double t = 0;
+  double t = 0, next_force_check = 0;
+  bool balanced = false;
   std::vector<double> energy(n, 0.0);
   result.stop_reason = "time_limit";
   while (t < options.simulated_time_limit) {
@@ -97,8 +111,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
     for (const HeldVertex& held : scene.held) kinematic.target[held.vertex] = position_at(held, t + h);
 
     const Positions before = state.x;
-    const StepOutcome outcome =
-        solver.step(state, h, relaxation_factor(t, options), contacts, kinematic, step_times);
+    const StepOutcome outcome = solver.step(state, h, relaxation_factor(t, options), contacts, kinematic, step_times);
     result.newton_iterations += outcome.newton_iterations;
     result.cg_iterations += outcome.cg_iterations;
     if (outcome.accepted && finite(state.x)) {
@@ -112,7 +125,16 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
       ++result.steps;
       time_step.accepted();
       energy = solver.kinetic_energy(state);
-      const bool quiet = rest.update(energy, h);
+      bool quiet = rest.update(energy, h);
+      if (quiet && t >= moving_until && options.rest_residual > 0) {
+        // The check costs about half a step, so it is not made at each one.
+        if (t >= next_force_check) {
+          balanced = rms_residual(solver.static_forces(state.x, contacts), solver.masses(), kinematic.held) <
+                     options.rest_residual;
+          next_force_check = t + kForceCheckInterval;
+        }
+        quiet = balanced;
+      }
       if (t < moving_until) rest.reset();
       // Without early stop the run goes on, and says what it ended in.
       result.stop_reason = quiet && t >= moving_until ? "at_rest" : "time_limit";

@@ -15,10 +15,10 @@
 namespace toile {
 
 struct SimulationState {
-  double time = 0;            ///< simulated [s]
-  double kinetic_energy = 0;  ///< [J]
+  double time = 0;              ///< simulated [s]
+  double kinetic_energy = 0;    ///< [J]
   double nodal_energy_p99 = 0;  ///< [J]
-  double step = 0;            ///< h [s]
+  double step = 0;              ///< h [s]
   long contacts = 0;
   const Positions* x = nullptr;
 };
@@ -33,12 +33,12 @@ struct Simulation {
   std::string stop_reason;  ///< "at_rest", "time_limit", "step_too_small"
   double time = 0;          ///< simulated [s]
   long steps = 0, newton_iterations = 0, cg_iterations = 0, splits = 0;
-  long limited_vertices = 0;  ///< vertex moves cut short, summed over steps, because they could have crossed cloth
-  StageTimes times;         ///< the parts of `drape`
-  double kinetic_energy = 0;  ///< [J] at the end
-  std::vector<Contact> contacts;          ///< active at the end
-  Positions net_force;      ///< on free vertices, contacts and friction included [N]; zero on held ones
-  std::vector<double> mass;  ///< lumped [kg]
+  long limited_vertices = 0;      ///< vertex moves cut short, summed over steps, because they could have crossed cloth
+  StageTimes times;               ///< the parts of `drape`
+  double kinetic_energy = 0;      ///< [J] at the end
+  std::vector<Contact> contacts;  ///< active at the end
+  Positions net_force;            ///< on free vertices, contacts and friction included [N]; zero on held ones
+  std::vector<double> mass;       ///< lumped [kg]
   std::vector<double> contact_force;  ///< per vertex, sum of contact force magnitudes [N]
 };
 
@@ -49,8 +49,8 @@ struct SimulationScene {
   std::vector<HeldVertex> held;
 };
 
-/// Advances cloth.x to rest. No NaN is ever written to it: a step that fails at the smallest time step ends the run with
-/// "step_too_small". Deterministic on any number of threads.
+/// Advances cloth.x to rest. No NaN is ever written to it: a step that fails at the smallest time step ends the run
+/// with "step_too_small". Deterministic on any number of threads.
 Simulation simulate(Cloth& cloth, const SimulationScene& scene, const SimulationProgress& progress);
 
 }  // namespace toile
