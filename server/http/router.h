@@ -36,6 +36,7 @@ class Router {
   void add(Route route) { routes_.push_back(std::move(route)); }
   /// Throws HttpProblem 404 or 405.
   RouteMatch match(std::string_view method, std::string_view path) const;
+  const std::vector<Route>& routes() const { return routes_; }
 
  private:
   std::vector<Route> routes_;
