@@ -40,6 +40,8 @@ constexpr Manner kManners[] = {{6e-3, 0.6, {2, false}},
                                {6e-3, 0.85, {4, false}},
                                {2e-3, 0.7, {3, false}}};
 constexpr SeamZone kWideZone{6, true};  // for seams that stay open
+constexpr int kRidingSteps = 800;       // at most, of a waistband up the body
+constexpr double kRidingStill = 3e-5;   // [m] per step
 constexpr int kFallingSteps = 400;      // a skirt sewn through raised arms falls below them
 constexpr double kSlitGap = 2e-4;       // [m]
 constexpr double kListRadius = 12e-3;   // [m] wide: panels travel far
@@ -283,6 +285,23 @@ Sewn sew(Stage& stage, const Sewing& sewing, Cloth cloth, const Manner& manner) 
   return sewn;
 }
 
+/// A band that is to be attached finds its height first: one that is tight where the pattern put it slides up the body,
+/// as it would in wear, to where it is less stretched.
+void ride_up(Stage& stage, Cloth& cloth, const std::vector<const BodyField*>& field, const std::vector<char>& keep,
+             const std::vector<char>& held, double offset) {
+  PositionBased solver(cloth, make_collision_mesh(cloth, stage.scene.solver.contact_distance), kListRadius, field);
+  solver.keep_height = keep;
+  for (std::size_t v = 0; v < held.size(); ++v)
+    if (held[v]) solver.mobility[v] = 0;
+  PositionBasedOptions options;
+  options.body_offset = offset;
+  options.carry = 0.95;
+  for (int s = 0; s < kRidingSteps; ++s) {
+    stage.step(solver, cloth.x, options, 0.9);
+    if (s > kPatience && solver.largest_move() < kRidingStill) break;
+  }
+}
+
 }  // namespace
 
 std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth) {
@@ -364,6 +383,12 @@ Assembly assemble(const Scene& scene, Cloth apart, const BodyFields& fields, con
     if (result.old_to_new[v] < 0) continue;
     sewn_keep[result.old_to_new[v]] |= keep[v];
     sewn_held[result.old_to_new[v]] |= held[v];
+  }
+  if (result.open_seams.empty() && std::find(sewn_keep.begin(), sewn_keep.end(), 1) != sewn_keep.end()) {
+    std::vector<const BodyField*> sewn_field(result.cloth.x.size(), fields.whole);
+    for (std::size_t v = 0; v < field.size(); ++v)
+      if (result.old_to_new[v] >= 0 && field[v] != fields.whole) sewn_field[result.old_to_new[v]] = field[v];
+    ride_up(stage, result.cloth, sewn_field, sewn_keep, sewn_held, offset);
   }
   if (fields.without_overhangs && result.open_seams.empty())
     fall_clear(stage, result.cloth, field, result.old_to_new, fields, sewn_keep, sewn_held, offset);
