@@ -7,12 +7,14 @@
 #include "engine/quality/measure.h"
 #include "engine/quality/stretch.h"
 #include "engine/scene/check.h"
+#include "engine/scene/problem.h"
 #include "engine/solve/assemble.h"
 #include "engine/solve/preview.h"
 #include "engine/solve/simulate.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <optional>
 
 namespace toile {
@@ -76,6 +78,26 @@ Bodies make_bodies(const Scene& scene, const Cloth& cloth) {
   return bodies;
 }
 
+/// A panel much longer than the body was drawn in another unit than its document says, and sewing it would only take
+/// long. Throws InputError (`implausible_size`).
+void check_size(const Cloth& cloth, const BodyField& body) {
+  constexpr double kLongest = 2;  // times the body's greatest extent
+  const Vec3 extent = body.bounds().upper - body.bounds().lower;
+  if (!extent.allFinite() || cloth.seam_pairs.empty()) return;
+  std::vector<Box> boxes(cloth.panels.size());
+  for (std::size_t t = 0; t < cloth.triangles.size(); ++t)
+    for (int v : cloth.triangles[t]) boxes[cloth.triangle_panel[t]].extend(cloth.x[v]);
+  for (std::size_t p = 0; p < boxes.size(); ++p) {
+    if (boxes[p].empty()) continue;
+    const double size = (boxes[p].upper - boxes[p].lower).maxCoeff();
+    if (size <= kLongest * extent.maxCoeff()) continue;
+    char text[200];
+    std::snprintf(text, sizeof text, "panel '%.80s' is %.1f m long and the body %.2f m: are the pattern's units right?",
+                  cloth.panels[p].name.c_str(), size, extent.maxCoeff());
+    throw InputError("/garments/" + std::to_string(cloth.panels[p].garment), "implausible_size", text);
+  }
+}
+
 void fill_simulation(const Simulation& simulation, const std::vector<HeldVertex>& held, Drape& drape) {
   Report& report = drape.report;
   report.stop_reason = simulation.stop_reason;
@@ -110,6 +132,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
   Cloth apart = build_cloth(scene);
   stage("body", 0.01);
   const Bodies bodies = make_bodies(scene, apart);
+  if (bodies.whole) check_size(apart, *bodies.whole);
 
   stage("assemble", 0.02);
   Assembly assembly = assemble(scene, std::move(apart), bodies.fields(), [&](const AssemblyState& state) {

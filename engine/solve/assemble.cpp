@@ -76,15 +76,17 @@ std::vector<std::vector<SeamPull>> seams_in_order(const Cloth& cloth, int garmen
     for (int v : cloth.triangles[t]) panel_of_vertex[v] = cloth.triangle_panel[t];
   std::vector<SeamPull> within, all;
   for (const SeamPair& pair : cloth.seam_pairs) {
-    if (cloth.vertex_garment[pair.a] != garment) continue;
+    if (cloth.vertex_garment[pair.a] > garment) continue;
     all.push_back({pair.a, pair.b});
-    if (part[panel_of_vertex[pair.a]] == part[panel_of_vertex[pair.b]]) within.push_back({pair.a, pair.b});
+    // What was sewn before stays so.
+    if (cloth.vertex_garment[pair.a] < garment || part[panel_of_vertex[pair.a]] == part[panel_of_vertex[pair.b]])
+      within.push_back({pair.a, pair.b});
   }
   if (within.size() == all.size()) return {all};
   return {within, all};
 }
 
-/// Closes the seams of one garment while later garments wait and earlier ones give way.
+/// Closes the seams of one garment while later garments wait and earlier ones, kept closed, give way.
 void close_seams(Stage& stage, PositionBased& solver, Cloth& cloth, int garment, const std::vector<std::string>& part,
                  const Manner& manner, double offset, double from, double to) {
   PositionBasedOptions options;
