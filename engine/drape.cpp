@@ -49,10 +49,6 @@ double smallest_edge_length(const Scene& scene) {
   return length;
 }
 
-bool has_panel_of_legs(const Cloth& cloth) {
-  return std::any_of(cloth.panels.begin(), cloth.panels.end(), [](const ClothPanel& p) { return p.label == "leg"; });
-}
-
 /// The reference rung: tolerances a hundred to a thousand times tighter, and no early stop.
 SolverOptions options_of(const Scene& scene) {
   SolverOptions options = scene.solver;
@@ -74,7 +70,7 @@ Bodies make_bodies(const Scene& scene, const Cloth& cloth) {
   Bodies bodies;
   if (!scene.body) return bodies;
   bodies.whole = make_body_field(*scene.body, smallest_edge_length(scene));
-  if (has_panel_of_legs(cloth)) bodies.without_overhangs = bodies.whole->without_overhangs();
+  if (!cloth.seam_pairs.empty()) bodies.without_overhangs = bodies.whole->without_overhangs();
   return bodies;
 }
 
