@@ -287,8 +287,8 @@ Sewn sew(Stage& stage, const Sewing& sewing, Cloth cloth, const Manner& manner) 
   return sewn;
 }
 
-/// A band that is to be attached finds its height first: one that is tight where the pattern put it slides up the body,
-/// as it would in wear, to where it is less stretched.
+/// What is tight where the pattern put it slides along the body, as it would in wear, to where it is less stretched: a
+/// waistband finds its height before it is attached.
 void ride_up(Stage& stage, Cloth& cloth, const std::vector<const BodyField*>& field, const std::vector<char>& keep,
              const std::vector<char>& held, double offset) {
   PositionBased solver(cloth, make_collision_mesh(cloth, stage.scene.solver.contact_distance), kListRadius, field);
@@ -386,7 +386,7 @@ Assembly assemble(const Scene& scene, Cloth apart, const BodyFields& fields, con
     sewn_keep[result.old_to_new[v]] |= keep[v];
     sewn_held[result.old_to_new[v]] |= held[v];
   }
-  if (result.open_seams.empty() && std::find(sewn_keep.begin(), sewn_keep.end(), 1) != sewn_keep.end()) {
+  if (stage.steps > 0 && result.open_seams.empty()) {
     std::vector<const BodyField*> sewn_field(result.cloth.x.size(), fields.whole);
     for (std::size_t v = 0; v < field.size(); ++v)
       if (result.old_to_new[v] >= 0 && field[v] != fields.whole) sewn_field[result.old_to_new[v]] = field[v];
