@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
+#include <mutex>
+#include <utility>
 
 namespace toile {
 namespace {
@@ -138,6 +140,24 @@ struct HttpServer::Library {
   httplib::Server server;
   std::atomic<std::size_t> body_bytes{0};
   socket_t listener = -1;
+  std::mutex stopping;
+  bool stop_asked = false;
+  bool can_stop = false;
+
+  /// The library's stop() does nothing before it runs; one that comes earlier is kept until it does.
+  void stop() {
+    const std::scoped_lock lock(stopping);
+    if (!std::exchange(stop_asked, true) && can_stop) server.stop();
+  }
+
+  /// The library makes its queue when it counts as running and before it accepts a connection: the one moment at which
+  /// a kept stop() can be carried out without leaving a gap on either side.
+  httplib::TaskQueue* begin() {
+    const std::scoped_lock lock(stopping);
+    can_stop = true;
+    if (stop_asked) server.stop();
+    return new httplib::ThreadPool(static_cast<std::size_t>(options.threads));
+  }
 
   /// The checks that need no body. Throws HttpProblem.
   RouteMatch admit(const httplib::Request& request) const {
@@ -197,7 +217,7 @@ HttpServer::HttpServer(Router router, HttpServerOptions options) : library_(std:
   library->router = std::move(router);
   library->options = options;
   httplib::Server& server = library->server;
-  server.new_task_queue = [options] { return new httplib::ThreadPool(static_cast<std::size_t>(options.threads)); };
+  server.new_task_queue = [library] { return library->begin(); };
   server.set_tcp_nodelay(true);
   server.set_keep_alive_max_count(1000);
   server.set_keep_alive_timeout(options.keep_alive_s);
@@ -247,6 +267,6 @@ int HttpServer::bind(const std::string& host, int port) {
 }
 
 void HttpServer::serve() { library_->server.listen_after_bind(); }
-void HttpServer::stop() { library_->server.stop(); }
+void HttpServer::stop() { library_->stop(); }
 
 }  // namespace toile

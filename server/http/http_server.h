@@ -31,8 +31,9 @@ class HttpServer {
 
   /// Listens on a port, 0 for any free one; returns the port. Throws std::runtime_error when it is taken.
   int bind(const std::string& host, int port);
-  /// Serves until stop(), which may be called from another thread: running requests end, new ones are refused.
+  /// Serves until stop(): running requests end, new ones are refused. Once stopped, never again.
   void serve();
+  /// From any thread, any number of times, before serve() too, which then returns at once.
   void stop();
 
  private:

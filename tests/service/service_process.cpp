@@ -32,6 +32,39 @@ std::vector<std::string> stat_of(pid_t pid) {
   return list;
 }
 
+enum class StopSignal { taken, held };
+
+/// Starts `toile serve`; `output` becomes its standard output's reading end. `held`: SIGTERM is blocked when the
+/// program begins, so that one that comes before it listens for signals waits instead of killing it.
+pid_t spawn_server(const std::string& data, const std::vector<std::string>& extra, StopSignal stop, int& output) {
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) throw std::runtime_error("pipe");
+  std::vector<std::string> arguments{TOILE_BINARY, "serve", "--port", "0", "--data", data};
+  arguments.insert(arguments.end(), extra.begin(), extra.end());
+  std::vector<char*> words;
+  for (std::string& argument : arguments) words.push_back(argument.data());
+  words.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  posix_spawn_file_actions_addclosefrom_np(&actions, 3);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t blocked;
+  sigemptyset(&blocked);
+  if (stop == StopSignal::held) sigaddset(&blocked, SIGTERM);
+  posix_spawnattr_setsigmask(&attributes, &blocked);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+  pid_t pid = -1;
+  const int error = posix_spawn(&pid, TOILE_BINARY, &actions, &attributes, words.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  close(ends[1]);
+  if (error != 0) throw std::runtime_error("can't start " TOILE_BINARY);
+  output = ends[0];
+  return pid;
+}
+
 }  // namespace
 
 std::string shell(const std::string& command, int* status) {
@@ -52,22 +85,9 @@ bool is_alive(pid_t pid) {
 }
 
 ServiceProcess::ServiceProcess(const std::string& data, const std::vector<std::string>& extra) {
-  std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) throw std::runtime_error("pipe");
-  std::vector<std::string> arguments{TOILE_BINARY, "serve", "--port", "0", "--data", data};
-  arguments.insert(arguments.end(), extra.begin(), extra.end());
-  std::vector<char*> words;
-  for (std::string& argument : arguments) words.push_back(argument.data());
-  words.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_addclosefrom_np(&actions, 3);
-  const int error = posix_spawn(&pid_, TOILE_BINARY, &actions, nullptr, words.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  if (error != 0) throw std::runtime_error("can't start " TOILE_BINARY);
-  FILE* const output = fdopen(ends[0], "r");
+  int end = -1;
+  pid_ = spawn_server(data, extra, StopSignal::taken, end);
+  FILE* const output = fdopen(end, "r");
   std::array<char, 256> line{};
   if (fgets(line.data(), line.size(), output) != nullptr) {
     const std::string text(line.data());
@@ -116,6 +136,26 @@ int ServiceProcess::stop() {
   int status = 0;
   waitpid(pid_, &status, 0);
   pid_ = -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::optional<int> status_when_stopped_after(std::chrono::milliseconds delay, const std::string& data,
+                                             std::chrono::seconds patience) {
+  int output = -1;
+  const pid_t pid = spawn_server(data, {"--health-port", "0"}, StopSignal::held, output);
+  std::this_thread::sleep_for(delay);
+  kill(pid, SIGTERM);
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  int status = 0;
+  pid_t ended = 0;
+  while ((ended = waitpid(pid, &status, WNOHANG)) == 0 && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(2ms);
+  if (ended == 0) {
+    kill(pid, SIGKILL);
+    waitpid(pid, nullptr, 0);
+  }
+  close(output);
+  if (ended == 0) return std::nullopt;
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 

@@ -3,7 +3,9 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +43,12 @@ class ServiceProcess {
   pid_t pid_ = -1;
   int port_ = 0;
 };
+
+/// Starts a server, a health port too, sends SIGTERM after the delay, which may be before it listens, and waits: its
+/// exit status, -1 when a signal ended it, nothing when it had to be killed. The signal is blocked at the start, for
+/// one that comes before the program's first line would rightly end it otherwise.
+std::optional<int> status_when_stopped_after(std::chrono::milliseconds delay, const std::string& data,
+                                             std::chrono::seconds patience);
 
 /// The output of a shell command line, and its exit status.
 std::string shell(const std::string& command, int* status = nullptr);

@@ -172,6 +172,12 @@ TEST_F(ServiceOverCurl, AnOrderlyStopPutsTheRunBack) {
   EXPECT_EQ(job["attempts"], 1) << "a stop of the server is not the job's fault";
 }
 
+TEST_F(ServiceOverCurl, AStopAtAnyMomentOfTheStartIsTaken) {
+  for (auto delay = 0ms; delay <= 200ms; delay += 10ms) {
+    ASSERT_EQ(status_when_stopped_after(delay, data(), 10s), 0) << "SIGTERM " << delay.count() << " ms after the start";
+  }
+}
+
 TEST_F(ServiceOverCurl, ASecondServerOnTheSameDataIsRefused) {
   const ServiceProcess server(data());
   int status = 0;

@@ -46,7 +46,6 @@ void ServiceFixture::SetUp() {
   server_ = std::make_unique<HttpServer>(make_router(*service_), server_options);
   port_ = server_->bind("127.0.0.1", 0);
   thread_ = std::thread([this] { server_->serve(); });
-  request("GET", "/healthz");  // it serves: the library forgets a stop() that comes before
 }
 
 void ServiceFixture::TearDown() {
