@@ -1,5 +1,6 @@
 #include "engine/drape.h"
 
+#include "engine/mesh/build_cloth.h"
 #include "engine/mesh/gltf.h"
 #include "engine/mesh/obj.h"
 #include "engine/scene/problem.h"
@@ -73,7 +74,7 @@ int drape_to_files(const DrapeArguments& arguments, RunMonitor& monitor) {
   report.warnings.insert(report.warnings.begin(), job.warnings.begin(), job.warnings.end());
   const bool converged = report.status == "converged";
 
-  const TriangleMesh mesh = mesh_of(result.cloth);
+  const TriangleMesh mesh = surface_mesh(result.cloth);
   write_atomically(out / kObjName, write_obj(mesh));
   write_atomically(out / kGlbName, write_glb(mesh, &result.body_mesh));
   if (converged) {  // what did not come to rest must not pass for a drape in a picture

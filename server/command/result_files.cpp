@@ -56,14 +56,4 @@ void remove_old_results(const fs::path& out) {
   for (const fs::path& path : old) fs::remove(path);
 }
 
-TriangleMesh mesh_of(const Cloth& cloth) {
-  TriangleMesh mesh;
-  mesh.vertices = cloth.x;
-  mesh.triangles = cloth.triangles;
-  mesh.corner_uv = cloth.flat;
-  mesh.triangle_group = cloth.triangle_panel;
-  for (const ClothPanel& panel : cloth.panels) mesh.group_names.push_back(panel.name);
-  return mesh;
-}
-
 }  // namespace toile

@@ -1,9 +1,6 @@
 #pragma once
 // Files in and out of a run. A file is there whole or not at all.
 
-#include "engine/drape.h"
-#include "engine/mesh/triangle_mesh.h"
-
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -18,8 +15,5 @@ void write_atomically(const std::filesystem::path& path, std::string_view bytes)
 
 /// Removes what an earlier run left in the folder, so that nothing stale is taken for this run's.
 void remove_old_results(const std::filesystem::path& out);
-
-/// The cloth as a mesh to be written: UVs are the flat pattern [m], groups the panels.
-TriangleMesh mesh_of(const Cloth& cloth);
 
 }  // namespace toile
