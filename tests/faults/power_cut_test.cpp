@@ -5,9 +5,9 @@
 #include "server/store/sqlite_connection.h"
 #include "server/store/sqlite_store.h"
 #include "tests/faults/power_cut_vfs.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <random>
 
@@ -17,20 +17,16 @@ namespace {
 class PowerCut : public testing::Test {
  protected:
   void SetUp() override {
-    std::string name = testing::TempDir() + "toile-power-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name + "/before";
-    after_ = name + "/after";
-    std::filesystem::create_directories(folder_);
+    std::filesystem::create_directories(before_);
     install_power_cut_vfs();
   }
-  void TearDown() override { std::filesystem::remove_all(std::filesystem::path(folder_).parent_path()); }
 
-  std::string folder_, after_;
+  const TemporaryFolder folder_;
+  const std::string before_ = folder_ / "before", after_ = folder_ / "after";
 };
 
 TEST_F(PowerCut, LosesNothingThatTheStoreAcknowledged) {
-  const auto store = open_sqlite_store(folder_, kPowerCutVfs);
+  const auto store = open_sqlite_store(before_, kPowerCutVfs);
   std::mt19937 random(7);
   std::vector<std::string> assets, finished;
   constexpr int kRounds = 60;
@@ -45,7 +41,7 @@ TEST_F(PowerCut, LosesNothingThatTheStoreAcknowledged) {
     ASSERT_TRUE(store->publish(lease, JobState::succeeded, "", {{"mesh.obj", "model/obj", name, bytes}}, round));
     finished.push_back(id);
 
-    copy_after_power_cut(folder_, after_, random() % (unsynced_changes() + 1));
+    copy_after_power_cut(before_, after_, random() % (unsynced_changes() + 1));
     const auto survivor = open_sqlite_store(after_);
     for (const std::string& asset : assets) ASSERT_TRUE(survivor->has_asset(asset)) << "round " << round;
     for (const std::string& job : finished) {
@@ -56,12 +52,12 @@ TEST_F(PowerCut, LosesNothingThatTheStoreAcknowledged) {
 }
 
 TEST_F(PowerCut, WouldShowALossAtSynchronousNormal) {
-  SqliteConnection connection(folder_ + "/plain.sqlite3", SqliteConnection::Mode::read_write_create, kPowerCutVfs);
+  SqliteConnection connection(before_ + "/plain.sqlite3", SqliteConnection::Mode::read_write_create, kPowerCutVfs);
   connection.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; CREATE TABLE acknowledged (n INTEGER)");
   connection.execute("PRAGMA wal_checkpoint(TRUNCATE)");
   constexpr int kCommits = 10;
   for (int i = 0; i < kCommits; ++i) connection.execute("INSERT INTO acknowledged VALUES (1)");
-  copy_after_power_cut(folder_, after_, 0);
+  copy_after_power_cut(before_, after_, 0);
   SqliteConnection survivor(after_ + "/plain.sqlite3", SqliteConnection::Mode::read_write_create);
   EXPECT_LT(survivor.integer("SELECT count(*) FROM acknowledged"), kCommits)
       << "if nothing is lost here, the test above proves nothing";

@@ -2,9 +2,9 @@
 // job; the server stays up and small.
 
 #include "tests/service/service_process.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -25,24 +25,17 @@ std::string content_of(const fs::path& path) {
 
 class BadInputOverCurl : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = testing::TempDir() + "toile-bad-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// Sends {"scene": <bytes>}.
   CurlAnswer send(const ServiceProcess& server, const std::string& scene) const {
-    std::ofstream(folder_ + "/body", std::ios::binary) << "{\"scene\":" << scene << "}";
-    return server.curl("/v1/jobs", "-H 'Content-Type: application/json' --data-binary @" + folder_ + "/body");
+    std::ofstream(folder_ / "body", std::ios::binary) << "{\"scene\":" << scene << "}";
+    return server.curl("/v1/jobs", "-H 'Content-Type: application/json' --data-binary @" + folder_ / "body");
   }
 
-  std::string folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST_F(BadInputOverCurl, EachExampleIsRefusedWithItsPlace) {
-  const ServiceProcess server(folder_ + "/data");
+  const ServiceProcess server(folder_ / "data");
   int refused = 0, failed = 0;
   for (const auto& entry : fs::directory_iterator(TOILE_SOURCE "/schemas/examples/invalid")) {
     const std::string name = entry.path().filename().string();
@@ -71,8 +64,8 @@ TEST_F(BadInputOverCurl, EachExampleIsRefusedWithItsPlace) {
 }
 
 TEST_F(BadInputOverCurl, AHundredMegabytesAreRefused) {
-  const ServiceProcess server(folder_ + "/data");
-  const std::string file = folder_ + "/large";
+  const ServiceProcess server(folder_ / "data");
+  const std::string file = folder_ / "large";
   std::ofstream(file).close();
   fs::resize_file(file, 100'000'000);
   EXPECT_EQ(server.curl("/v1/assets", "--data-binary @" + file).status, 413);
@@ -84,7 +77,7 @@ TEST_F(BadInputOverCurl, AHundredMegabytesAreRefused) {
 }
 
 TEST_F(BadInputOverCurl, ScenesWithFilesAreRefused) {
-  const ServiceProcess server(folder_ + "/data");
+  const ServiceProcess server(folder_ / "data");
   const CurlAnswer answer = send(server, R"({"garments":[{"pattern":{"file":"/etc/passwd"}}]})");
   EXPECT_EQ(answer.status, 422);
   EXPECT_EQ(answer.json()["errors"][0]["pointer"], "/garments/0/pattern/file") << answer.body;

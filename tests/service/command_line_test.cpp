@@ -1,9 +1,9 @@
 // `toile drape` as a person runs it: exit statuses, files, the problem on the error stream.
 
 #include "tests/service/service_process.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -16,28 +16,21 @@ namespace fs = std::filesystem;
 
 class CommandLine : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = testing::TempDir() + "toile-command-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string scene(const std::string& fidelity, const std::string& more = "") {
-    std::ofstream(folder_ + "/scene.json")
+    std::ofstream(folder_ / "scene.json")
         << R"({"garments":[{"rectangle":{"width_mm":300,"height_mm":300},"edge_length_mm":30,)"
         << R"("transform":{"translate_mm":[0,270,0]}}],"body":{"sphere":{"radius_mm":150,"center_mm":[0,100,0]}},)"
         << R"("fidelity":")" << fidelity << R"(","render":{"views":["front"],"overlays":["fabric","stretch"],)"
         << R"("size_px":[64,48]})" << more << "}";
-    return folder_ + "/scene.json";
+    return folder_ / "scene.json";
   }
   /// Runs toile in the test's folder; what it wrote to both streams.
   std::string toile(const std::string& arguments, int* status) const {
-    return shell("cd " + folder_ + " && " TOILE_BINARY " " + arguments + " 2>&1 </dev/null", status);
+    return shell("cd " + folder_.path() + " && " TOILE_BINARY " " + arguments + " 2>&1 </dev/null", status);
   }
-  json report() const { return json::parse(std::ifstream(folder_ + "/out/report.json"), nullptr, false); }
+  json report() const { return json::parse(std::ifstream(folder_ / "out/report.json"), nullptr, false); }
 
-  std::string folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST_F(CommandLine, HelpAndVersionNeedNothing) {
@@ -56,12 +49,12 @@ TEST_F(CommandLine, WritesEveryResult) {
   EXPECT_EQ(status, 0) << table;
   EXPECT_THAT(table, testing::HasSubstr("seam gap"));
   for (const char* name : {"report.json", "mesh.obj", "mesh.glb", "preview-front.png", "preview-front-stretch.png"}) {
-    EXPECT_GT(fs::file_size(folder_ + "/out/" + name), 0U) << name;
+    EXPECT_GT(fs::file_size(folder_ / "out/" + name), 0U) << name;
   }
   EXPECT_EQ(report()["status"], "converged");
   toile("render --job out --view top --overlay wireframe --out top.png", &status);
   EXPECT_EQ(status, 0);
-  EXPECT_GT(fs::file_size(folder_ + "/top.png"), 0U);
+  EXPECT_GT(fs::file_size(folder_ / "top.png"), 0U);
 }
 
 TEST_F(CommandLine, TheNumberOfThreadsDoesNotChangeTheResult) {
@@ -80,8 +73,8 @@ TEST_F(CommandLine, NotConvergedIsThreeAndKeepsReportAndMesh) {
       toile("drape " + scene("standard", R"(,"solver":{"simulated_time_limit_s":0.02})") + " --out out", &status);
   EXPECT_EQ(status, 3) << output;
   EXPECT_EQ(report()["status"], "not_converged");
-  EXPECT_TRUE(fs::exists(folder_ + "/out/mesh.obj"));
-  EXPECT_FALSE(fs::exists(folder_ + "/out/preview-front.png")) << "no pretty picture of what is not at rest";
+  EXPECT_TRUE(fs::exists(folder_ / "out/mesh.obj"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/preview-front.png")) << "no pretty picture of what is not at rest";
 }
 
 TEST_F(CommandLine, BadInputIsTwoWithTheProblem) {
@@ -97,8 +90,9 @@ TEST_F(CommandLine, BadInputIsTwoWithTheProblem) {
 TEST_F(CommandLine, AStopSignalIsFour) {
   int status = -1;
   scene("reference", R"(,"solver":{"early_stop":false,"simulated_time_limit_s":60})");
-  shell("cd " + folder_ + " && { " TOILE_BINARY " drape scene.json --out out & sleep 1; kill -TERM $!; wait $!; }",
-        &status);
+  shell(
+      "cd " + folder_.path() + " && { " TOILE_BINARY " drape scene.json --out out & sleep 1; kill -TERM $!; wait $!; }",
+      &status);
   EXPECT_EQ(status, 4);
 }
 
@@ -106,7 +100,7 @@ TEST_F(CommandLine, ARunWhoseReaderDiesEnds) {
   int status = -1;
   scene("reference", R"(,"solver":{"early_stop":false,"simulated_time_limit_s":60})");
   const std::string pid =
-      shell("cd " + folder_ +
+      shell("cd " + folder_.path() +
                 " && { " TOILE_BINARY
                 " drape scene.json --out out --progress-fd 3 3>&1 >/dev/null 2>&1 & echo $!; } | head -n 1",
             &status);

@@ -1,13 +1,12 @@
 // The main job by curl against a real server, and what is left when things die in the middle.
 
 #include "tests/service/service_process.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <signal.h>
-#include <stdlib.h>
 
 #include <chrono>
-#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -31,13 +30,7 @@ const std::string kSlowScene = R"({"garments":[{"disc":{"radius_mm":500},"edge_l
 
 class ServiceOverCurl : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = testing::TempDir() + "toile-service-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string data() const { return folder_ + "/data"; }
+  std::string data() const { return folder_ / "data"; }
 
   /// The run of a job that is under way; waits for it.
   static pid_t run_of(const ServiceProcess& server) {
@@ -54,7 +47,7 @@ class ServiceOverCurl : public testing::Test {
     return !is_alive(pid);
   }
 
-  std::string folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST_F(ServiceOverCurl, SubmitPollFetchList) {
@@ -82,7 +75,7 @@ TEST_F(ServiceOverCurl, SubmitPollFetchList) {
 
 TEST_F(ServiceOverCurl, AnUploadedMeshIsUsedByItsDigest) {
   const ServiceProcess server(data());
-  const std::string file = folder_ + "/tetrahedron.obj";
+  const std::string file = folder_ / "tetrahedron.obj";
   std::ofstream(file) << "v -0.2 0 -0.2\nv 0.2 0 -0.2\nv 0 0 0.3\nv 0 0.25 0\n"
                          "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
   const CurlAnswer uploaded = server.curl("/v1/assets", "--data-binary @" + file);

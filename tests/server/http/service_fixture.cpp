@@ -4,14 +4,12 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
-#include <stdlib.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <filesystem>
 
 namespace toile {
 
@@ -25,19 +23,16 @@ std::string Answer::header(const std::string& name) const {
 }
 
 void ServiceFixture::SetUp() {
-  std::string name = testing::TempDir() + "toile-http-XXXXXX";
-  ASSERT_NE(mkdtemp(name.data()), nullptr);
-  folder_ = name;
-  store_ = open_sqlite_store(folder_);
+  store_ = open_sqlite_store(folder_.path());
   options_.runner = TOILE_SOURCE "/tests/server/queue/fake_run.sh";
-  options_.runs = folder_ + "/runs";
+  options_.runs = folder_ / "runs";
   options_.heartbeat = 20ms;
   options_.retry_delay = 1ms;
   options_.grace = 100ms;
   dispatcher_ = std::make_unique<Dispatcher>(*store_, system_time_ms, options_);
   PreviewOptions preview_options;
   preview_options.runner = options_.runner;
-  preview_options.folder = folder_ + "/previews";
+  preview_options.folder = folder_ / "previews";
   previews_ = std::make_unique<PreviewRenderer>(*store_, preview_options);
   service_ = std::make_unique<Service>(Service{*store_, *dispatcher_, *previews_, system_time_ms, {}});
   HttpServerOptions server_options;
@@ -51,9 +46,6 @@ void ServiceFixture::SetUp() {
 void ServiceFixture::TearDown() {
   if (server_) server_->stop();
   if (thread_.joinable()) thread_.join();
-  dispatcher_.reset();
-  store_.reset();
-  std::filesystem::remove_all(folder_);
 }
 
 Answer ServiceFixture::raw(const std::string& bytes) const {

@@ -3,6 +3,7 @@
 
 #include "server/http/http_server.h"
 #include "server/http/service.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +40,7 @@ class ServiceFixture : public testing::Test {
   nlohmann::json wait_for_end(const std::string& id) const;
 
   DispatcherOptions options_;
-  std::string folder_;
+  const TemporaryFolder folder_;
   std::unique_ptr<Store> store_;
   std::unique_ptr<Dispatcher> dispatcher_;
   std::unique_ptr<PreviewRenderer> previews_;

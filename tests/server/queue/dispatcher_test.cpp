@@ -3,9 +3,9 @@
 #include "server/store/digest.h"
 #include "server/store/job_id.h"
 #include "server/store/sqlite_store.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
 #include <chrono>
 #include <filesystem>
@@ -21,23 +21,14 @@ using testing::HasSubstr;
 class DispatcherTest : public testing::Test {
  protected:
   void SetUp() override {
-    std::string name = testing::TempDir() + "toile-queue-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    store_ = open_sqlite_store(folder_);
+    store_ = open_sqlite_store(folder_.path());
     options_.runner = TOILE_SOURCE "/tests/server/queue/fake_run.sh";
-    options_.runs = folder_ + "/runs";
+    options_.runs = folder_ / "runs";
     options_.heartbeat = 20ms;
     options_.poll = 10ms;
     options_.retry_delay = 1ms;
     options_.grace = 200ms;
   }
-  void TearDown() override {
-    dispatcher_.reset();
-    store_.reset();
-    std::filesystem::remove_all(folder_);
-  }
-
   void start() { dispatcher_ = std::make_unique<Dispatcher>(*store_, system_time_ms, options_); }
 
   /// Queues a job whose fake run does `what`.
@@ -65,7 +56,7 @@ class DispatcherTest : public testing::Test {
   }
   bool runs_are_gone() const { return std::filesystem::is_empty(options_.runs); }
 
-  std::string folder_;
+  const TemporaryFolder folder_;
   std::unique_ptr<Store> store_;
   DispatcherOptions options_;
   std::unique_ptr<Dispatcher> dispatcher_;

@@ -4,11 +4,10 @@
 #include "server/store/job_id.h"
 #include "server/store/sqlite_connection.h"
 #include "tests/server/store/store_contract.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
-#include <filesystem>
 #include <fstream>
 
 namespace toile {
@@ -21,30 +20,24 @@ INSTANTIATE_TEST_SUITE_P(Sqlite, StoreContract, testing::Values(StoreMaker([](co
 
 class SqliteStoreFile : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = testing::TempDir() + "toile-sqlite-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string database() const { return folder_ + "/toile.sqlite3"; }
-  std::string folder_;
+  std::string database() const { return folder_ / "toile.sqlite3"; }
+  const TemporaryFolder folder_;
 };
 
 TEST_F(SqliteStoreFile, TheLiveConnectionSyncsEveryCommit) {
-  const auto store = open_sqlite_store(folder_);
+  const auto store = open_sqlite_store(folder_.path());
   const SqliteDurability durability = sqlite_durability(*store);
   EXPECT_EQ(durability.journal_mode, "wal");
   EXPECT_EQ(durability.synchronous, 2) << "2 is FULL; NORMAL loses acknowledged commits at a power cut";
 }
 
 TEST_F(SqliteStoreFile, ASecondProcessIsKeptOut) {
-  const auto store = open_sqlite_store(folder_);
-  EXPECT_THROW(open_sqlite_store(folder_), StoreError);
+  const auto store = open_sqlite_store(folder_.path());
+  EXPECT_THROW(open_sqlite_store(folder_.path()), StoreError);
 }
 
 TEST_F(SqliteStoreFile, TablesAreStrict) {
-  { const auto store = open_sqlite_store(folder_); }
+  { const auto store = open_sqlite_store(folder_.path()); }
   SqliteConnection connection(database(), SqliteConnection::Mode::read_only);
   EXPECT_EQ(connection.integer("SELECT count(*) FROM pragma_table_list WHERE name IN ('jobs', 'assets', 'artifacts') "
                                "AND strict = 1"),
@@ -53,12 +46,12 @@ TEST_F(SqliteStoreFile, TablesAreStrict) {
 }
 
 TEST_F(SqliteStoreFile, ANewerFileIsLeftAlone) {
-  { const auto store = open_sqlite_store(folder_); }
+  { const auto store = open_sqlite_store(folder_.path()); }
   {
     SqliteConnection connection(database(), SqliteConnection::Mode::read_write_create);
     connection.execute("PRAGMA user_version = 99");
   }
-  EXPECT_THROW(open_sqlite_store(folder_), StoreError);
+  EXPECT_THROW(open_sqlite_store(folder_.path()), StoreError);
 }
 
 TEST_F(SqliteStoreFile, AnotherProgramsFileIsLeftAlone) {
@@ -66,16 +59,16 @@ TEST_F(SqliteStoreFile, AnotherProgramsFileIsLeftAlone) {
     SqliteConnection connection(database(), SqliteConnection::Mode::read_write_create);
     connection.execute("CREATE TABLE orders (id INTEGER)");
   }
-  EXPECT_THROW(open_sqlite_store(folder_), StoreError);
+  EXPECT_THROW(open_sqlite_store(folder_.path()), StoreError);
 }
 
 TEST_F(SqliteStoreFile, RubbishIsRefused) {
   std::ofstream(database()) << std::string(8192, 'x');
-  EXPECT_THROW(open_sqlite_store(folder_), StoreError);
+  EXPECT_THROW(open_sqlite_store(folder_.path()), StoreError);
 }
 
 TEST_F(SqliteStoreFile, AFullDatabaseSaysSoAndKeepsWhatItHas) {
-  const auto store = open_sqlite_store(folder_);
+  const auto store = open_sqlite_store(folder_.path());
   ASSERT_TRUE(store->put_asset(sha256_hex("small"), "small", 1));
   EXPECT_EQ(store->asset(sha256_hex("small")), "small");
   const std::string beyond(std::size_t{1'000'000'001}, 'x');  // SQLite's limit on one value

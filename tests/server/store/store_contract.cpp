@@ -4,10 +4,8 @@
 #include "server/store/job_id.h"
 
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
 #include <atomic>
-#include <filesystem>
 #include <set>
 #include <thread>
 
@@ -26,21 +24,11 @@ Artifact artifact(const std::string& name, const std::string& bytes) {
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(StoreContract);
 
-void StoreContract::SetUp() {
-  std::string name = testing::TempDir() + "toile-store-XXXXXX";
-  ASSERT_NE(mkdtemp(name.data()), nullptr);
-  folder_ = name;
-  store_ = GetParam()(folder_);
-}
-
-void StoreContract::TearDown() {
-  store_.reset();
-  std::filesystem::remove_all(folder_);
-}
+void StoreContract::SetUp() { store_ = GetParam()(folder_.path()); }
 
 void StoreContract::reopen() {
   store_.reset();
-  store_ = GetParam()(folder_);
+  store_ = GetParam()(folder_.path());
 }
 
 JobRecord StoreContract::submit(int number, TimeMs now) {

@@ -3,6 +3,7 @@
 //   INSTANTIATE_TEST_SUITE_P(Name, StoreContract, testing::Values(StoreMaker{…}));
 
 #include "server/store/store.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -18,12 +19,11 @@ using StoreMaker = std::function<std::unique_ptr<Store>(const std::string& folde
 class StoreContract : public testing::TestWithParam<StoreMaker> {
  protected:
   void SetUp() override;
-  void TearDown() override;
   void reopen();
   /// Submits a job at `now` under a name that ends in `last`.
   JobRecord submit(int number, TimeMs now = 1000);
 
-  std::string folder_;
+  const TemporaryFolder folder_;
   std::unique_ptr<Store> store_;
 };
 
