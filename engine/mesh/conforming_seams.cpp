@@ -126,6 +126,9 @@ class Conformer {
       if (!joined(a.vertex, b.vertex)) break;
       auto path = between(a, b);
       if (!path) break;
+      // The outline between two places can't hold the vertices that go there: at a pleat, one run turns into the next.
+      if (std::count(path->begin(), path->end(), a.vertex) + std::count(path->begin(), path->end(), b.vertex) > 0)
+        break;
       gaps.push_back(std::move(*path));
     }
     const std::size_t count = end - first;

@@ -1,6 +1,7 @@
 #include "engine/mesh/sewing.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace toile {
@@ -15,23 +16,60 @@ int find_root(std::vector<int>& parent, int vertex) {
   return vertex;
 }
 
-void drop_collapsed(Cloth& cloth) {
+/// Per triangle: its corners became one, or it lies on another with the same three corners, as the two at the tip of a
+/// pleat do. Of those an odd one is left.
+std::vector<char> flattened(const std::vector<Triangle>& triangles) {
+  std::vector<char> flat(triangles.size(), 0);
+  std::map<Triangle, std::size_t> single;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    Triangle v = triangles[t];
+    std::sort(v.begin(), v.end());
+    flat[t] = v[0] == v[1] || v[1] == v[2];
+    if (flat[t]) continue;
+    const auto [at, fresh] = single.try_emplace(v, t);
+    if (fresh) continue;
+    flat[t] = flat[at->second] = 1;
+    single.erase(at);
+  }
+  return flat;
+}
+
+/// Returns the new index of each vertex: -1 for those that only dropped triangles had.
+std::vector<int> drop_flattened(Cloth& cloth) {
+  const std::vector<char> flat = flattened(cloth.triangles);
+  std::vector<int> renumbered(cloth.x.size());
+  std::iota(renumbered.begin(), renumbered.end(), 0);
+  std::vector<char> lost(cloth.x.size(), 0), used(cloth.x.size(), 0);
   std::size_t kept = 0;
   for (std::size_t t = 0; t < cloth.triangles.size(); ++t) {
-    const Triangle& v = cloth.triangles[t];
-    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-    cloth.triangles[kept] = v;
+    for (const int v : cloth.triangles[t]) (flat[t] ? lost : used)[static_cast<std::size_t>(v)] = 1;
+    if (flat[t]) continue;
+    cloth.triangles[kept] = cloth.triangles[t];
     cloth.flat[kept] = cloth.flat[t];
     cloth.triangle_panel[kept] = cloth.triangle_panel[t];
     ++kept;
   }
   const std::size_t dropped = cloth.triangles.size() - kept;
-  if (dropped == 0) return;
+  if (dropped == 0) return renumbered;
   cloth.triangles.resize(kept);
   cloth.flat.resize(kept);
   cloth.triangle_panel.resize(kept);
-  cloth.warnings.push_back("collapsed_triangles: " + std::to_string(dropped) +
-                           " triangles had corners that a seam makes one and were dropped");
+  int next = 0;
+  for (std::size_t v = 0; v < renumbered.size(); ++v) {
+    renumbered[v] = lost[v] && !used[v] ? -1 : next++;
+    if (renumbered[v] < 0) continue;
+    cloth.x[static_cast<std::size_t>(renumbered[v])] = cloth.x[v];
+    cloth.vertex_garment[static_cast<std::size_t>(renumbered[v])] = cloth.vertex_garment[v];
+  }
+  cloth.x.resize(static_cast<std::size_t>(next));
+  cloth.vertex_garment.resize(static_cast<std::size_t>(next));
+  for (Triangle& triangle : cloth.triangles) {
+    for (int& v : triangle) v = renumbered[static_cast<std::size_t>(v)];
+  }
+  cloth.warnings.push_back(
+      "collapsed_triangles: " + std::to_string(dropped) +
+      " triangles had corners that a seam makes one, or were laid on each other, and were dropped");
+  return renumbered;
 }
 
 }  // namespace
@@ -78,12 +116,14 @@ std::vector<int> merge_seams(Cloth& cloth) {
   for (Triangle& triangle : cloth.triangles) {
     for (int& vertex : triangle) vertex = renumbered[static_cast<std::size_t>(vertex)];
   }
+  const std::vector<int> kept = drop_flattened(cloth);
+  for (int& vertex : renumbered) vertex = kept[static_cast<std::size_t>(vertex)];
   for (LabelledVertices& label : cloth.labels) {
     for (int& vertex : label.vertices) vertex = renumbered[static_cast<std::size_t>(vertex)];
+    std::erase(label.vertices, -1);
     label.vertices.erase(std::unique(label.vertices.begin(), label.vertices.end()), label.vertices.end());
   }
   cloth.seam_pairs.clear();
-  drop_collapsed(cloth);
   return renumbered;
 }
 

@@ -14,8 +14,9 @@ std::vector<int> seam_representatives(const Cloth& cloth);
 double seam_gap_max(const Cloth& cloth);
 
 /// Makes one vertex of each set that seam pairs join, at the mean of the set's positions; renumbers in order of first
-/// occurrence, remaps triangles and labels, empties seam_pairs. Triangles whose corners become one are dropped with a
-/// warning. Returns the new index of each old vertex.
+/// occurrence, remaps triangles and labels, empties seam_pairs. Triangles whose corners become one, and two that come
+/// to have the same three corners (the tip of a pleat), are dropped with a warning, and so are vertices that have no
+/// other. Returns the new index of each old vertex, -1 for a dropped one.
 std::vector<int> merge_seams(Cloth& cloth);
 
 }  // namespace toile

@@ -43,8 +43,4 @@ using AssemblyProgress = std::function<bool(const AssemblyState&)>;
 /// the body and out of other cloth at every step; seam vertices become one. Deterministic.
 Assembly assemble(const Scene& scene, Cloth apart, const BodyFields& fields, const AssemblyProgress& progress);
 
-/// Vertices of garment `g` that a pin selects, in the numbering of `cloth` (apart or sewn). Empty: selects nothing.
-/// Throws InputError (`vertex_out_of_range`) for a vertex that the garment does not have.
-std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth);
-
 }  // namespace toile

@@ -1,12 +1,52 @@
 #include "engine/solve/pin_motion.h"
 
 #include "engine/scene/problem.h"
-#include "engine/solve/assemble.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 namespace toile {
+
+std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth) {
+  std::vector<int> chosen;
+  const auto by_label = [&](const std::string& label) {
+    for (const LabelledVertices& l : cloth.labels)
+      if (l.garment == garment && l.label == label) chosen.insert(chosen.end(), l.vertices.begin(), l.vertices.end());
+  };
+  if (const auto* vertices = std::get_if<PinVertices>(&pin.select)) {
+    int first = 0;  // a garment's vertices follow one another
+    while (first < static_cast<int>(cloth.x.size()) && cloth.vertex_garment[first] != garment) ++first;
+    for (int v : vertices->vertices) {
+      if (v < 0 || first + v >= static_cast<int>(cloth.x.size()) || cloth.vertex_garment[first + v] != garment)
+        throw InputError("/garments/" + std::to_string(garment) + "/pins", "vertex_out_of_range",
+                         "a pin names vertex " + std::to_string(v) + ", which the garment does not have");
+      chosen.push_back(first + v);
+    }
+  } else if (const auto* edge = std::get_if<PinEdge>(&pin.select)) {
+    int index = 0;
+    for (const ClothPanel& panel : cloth.panels)
+      if (panel.garment == garment && index++ == edge->panel) by_label(panel.name + "/" + std::to_string(edge->edge));
+  } else if (const auto* label = std::get_if<PinLabel>(&pin.select)) {
+    by_label(label->label);
+  } else if (const auto* box = std::get_if<PinBox>(&pin.select)) {
+    for (std::size_t v = 0; v < cloth.x.size(); ++v)
+      if (cloth.vertex_garment[v] == garment && (cloth.x[v].array() >= box->min.array()).all() &&
+          (cloth.x[v].array() <= box->max.array()).all())
+        chosen.push_back(static_cast<int>(v));
+  } else if (const auto* nearest = std::get_if<PinNearest>(&pin.select)) {
+    double best = std::numeric_limits<double>::infinity();
+    int found = -1;
+    for (std::size_t v = 0; v < cloth.x.size(); ++v) {
+      const double d = (cloth.x[v] - nearest->point).squaredNorm();
+      if (cloth.vertex_garment[v] == garment && d < best) best = d, found = static_cast<int>(v);
+    }
+    if (found >= 0) chosen.push_back(found);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  return chosen;
+}
 
 std::vector<HeldVertex> held_vertices(const Scene& scene, const Cloth& sewn, const std::vector<int>& attached) {
   std::vector<HeldVertex> held;

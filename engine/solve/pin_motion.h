@@ -1,5 +1,5 @@
 #pragma once
-// Where held vertices are at a time.
+// Which vertices the scene's pins hold, and where they are at a time.
 
 #include "engine/mesh/cloth.h"
 #include "engine/scene/scene.h"
@@ -7,6 +7,10 @@
 #include <vector>
 
 namespace toile {
+
+/// Vertices of garment `g` that a pin selects, in the numbering of `cloth` (apart or sewn). Empty: selects nothing.
+/// Throws InputError (`vertex_out_of_range`) for a vertex that the garment does not have.
+std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth);
 
 /// One held vertex: where it started and the motion it follows (none: it stays).
 struct HeldVertex {

@@ -12,13 +12,20 @@ namespace {
 constexpr double kCutting =
     -4e-3;  // [m] a seam whose middle is deeper inside the body than this would cut through a limb
 
+/// Panels travel far, so the list reaches far; but not so far that a flat sheet of good triangles finds itself in it.
+double list_radius(const Cloth& cloth) {
+  double radius = 12e-3;
+  for (const ClothPanel& panel : cloth.panels)
+    if (panel.edge_length > 0) radius = std::min(radius, 0.8 * panel.edge_length);
+  return radius;
+}
+
 }  // namespace
 
-PositionBased::PositionBased(const Cloth& cloth, CollisionMesh mesh, double list_radius,
-                             std::vector<const BodyField*> body_of_vertex)
+PositionBased::PositionBased(const Cloth& cloth, CollisionMesh mesh, std::vector<const BodyField*> body_of_vertex)
     : mobility(cloth.x.size(), 1.0),
       keep_height(cloth.x.size(), 0),
-      proximity_(std::move(mesh), list_radius),
+      proximity_(std::move(mesh), list_radius(cloth)),
       body_(std::move(body_of_vertex)),
       body_samples_(cloth.x.size()),
       floor_(cloth.x.size()) {
@@ -141,6 +148,18 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
     for (const Length& c : bends_) project(x, c, options.bending);
     for (const Length& c : stretch_) project(x, c, 1.0);
     draw(false);
+    for (int v = 0; v < n; ++v) {
+      if (!body_[v] || mobility[v] == 0) continue;
+      const BodyField::Sample& s = body_samples_[v];
+      const double lack = options.body_offset - (s.distance + s.normal.dot(x[v] - start[v]));
+      if (lack > 0) x[v] += s.normal * std::min(lack, limit);
+    }
+    for (int v = 0; v < n; ++v)
+      if (keep_height[v]) x[v].y() = std::max(x[v].y(), floor_[v]);
+    // After the body, since a seam has to close even in an armpit narrower than the offset; but not where it would cut
+    // into an arm.
+    draw(true);
+    // Last, since what a seam presses together until it touches could never part again (see Proximity).
     for (const Contact& c : contacts_) {
       Vec3 p = Vec3::Zero();
       double weight = 0;
@@ -153,17 +172,6 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
       for (int k = 0; k < c.count; ++k)
         x[c.nodes[k]] += c.normal * (mobility[c.nodes[k]] * c.weights[k] * lack / weight);
     }
-    for (int v = 0; v < n; ++v) {
-      if (!body_[v] || mobility[v] == 0) continue;
-      const BodyField::Sample& s = body_samples_[v];
-      const double lack = options.body_offset - (s.distance + s.normal.dot(x[v] - start[v]));
-      if (lack > 0) x[v] += s.normal * std::min(lack, limit);
-    }
-    for (int v = 0; v < n; ++v)
-      if (keep_height[v]) x[v].y() = std::max(x[v].y(), floor_[v]);
-    // Last, since a seam has to close even in an armpit narrower than the offset; but not where it would cut into an
-    // arm.
-    draw(true);
   }
 
   largest_move_ = 0;

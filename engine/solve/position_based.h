@@ -29,8 +29,7 @@ struct PositionBasedOptions {
 class PositionBased {
  public:
   /// `body_of_vertex` gives each vertex the field it minds (null: none).
-  PositionBased(const Cloth& cloth, CollisionMesh mesh, double list_radius,
-                std::vector<const BodyField*> body_of_vertex);
+  PositionBased(const Cloth& cloth, CollisionMesh mesh, std::vector<const BodyField*> body_of_vertex);
 
   /// 0 holds a vertex where it is; 1 frees it.
   std::vector<double> mobility;

@@ -9,14 +9,13 @@ namespace toile {
 namespace {
 
 constexpr int kSteps = 1500;
-constexpr double kStill = 2e-5;        // [m] per step
-constexpr double kListRadius = 10e-3;  // [m]
+constexpr double kStill = 2e-5;  // [m] per step
 
 }  // namespace
 
 PreviewOutcome settle_preview(const Scene& scene, Cloth& cloth, const BodyField* body,
                               const std::vector<HeldVertex>& held, const std::function<bool(double, long)>& progress) {
-  PositionBased solver(cloth, make_collision_mesh(cloth, scene.solver.contact_distance), kListRadius,
+  PositionBased solver(cloth, make_collision_mesh(cloth, scene.solver.contact_distance),
                        std::vector<const BodyField*>(cloth.x.size(), body));
   PositionBasedOptions options;
   options.fall = {0, -0.05e-3, 0};

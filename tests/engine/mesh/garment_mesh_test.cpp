@@ -164,7 +164,7 @@ TEST(GarmentMesh, CipcDressCloses) {
               angles[angles.size() / 1000], angles[angles.size() / 100]);
   const std::size_t triangles = cloth.triangles.size();
   merge_seams(cloth);
-  EXPECT_LE(triangles - cloth.triangles.size(), 4U) << "pleats fold slivers away";
+  EXPECT_LE(triangles - cloth.triangles.size(), 30U) << "slivers and the tips of pleats";
   const std::vector<int> component = connected_components(cloth.triangles);
   const auto crowded = non_manifold_edges(cloth.triangles);
   const auto loops = boundary_loops(cloth.triangles);

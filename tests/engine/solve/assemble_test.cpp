@@ -1,4 +1,5 @@
 #include "engine/solve/assemble.h"
+#include "engine/solve/pin_motion.h"
 
 #include "engine/mesh/sewing.h"
 #include "engine/parallel/state_hash.h"

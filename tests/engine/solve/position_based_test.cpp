@@ -12,11 +12,10 @@ namespace {
 
 using namespace test;
 
-constexpr double kEdge = 0.015, kListRadius = 0.012;
+constexpr double kEdge = 0.015;
 
 PositionBased solver_of(const Cloth& cloth, const BodyField* body = nullptr) {
-  return PositionBased(cloth, make_collision_mesh(cloth, 0), kListRadius,
-                       std::vector<const BodyField*>(cloth.x.size(), body));
+  return PositionBased(cloth, make_collision_mesh(cloth, 0), std::vector<const BodyField*>(cloth.x.size(), body));
 }
 
 double largest_edge_strain(const Cloth& cloth) {

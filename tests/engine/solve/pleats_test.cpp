@@ -1,0 +1,97 @@
+#include "engine/solve/pleats.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/mesh/sewing.h"
+#include "engine/quality/intersections.h"
+#include "tests/engine/solve/sheets.h"
+
+#include <algorithm>
+
+namespace toile::test {
+namespace {
+
+constexpr double kEdge = 0.01;
+
+/// Vertices of the row at the sheet's top, by columns.
+std::vector<int> top_row(const Cloth& sheet) {
+  double top = 0;
+  for (const Vec3& p : sheet.x) top = std::max(top, p.z());
+  std::vector<int> row;
+  for (std::size_t v = 0; v < sheet.x.size(); ++v)
+    if (sheet.x[v].z() > top - 1e-9) row.push_back(static_cast<int>(v));
+  std::sort(row.begin(), row.end(), [&](int a, int b) { return sheet.x[a].x() < sheet.x[b].x(); });
+  return row;
+}
+
+/// A sheet of 40 columns whose top edge is mapped onto itself about the columns of `folds`, `depth` edges either way.
+Cloth stitched_sheet(const std::vector<int>& folds, int depth) {
+  Cloth sheet = equilateral_sheet(40, 20, kEdge, suiting());
+  const std::vector<int> row = top_row(sheet);
+  for (int fold : folds)
+    for (int k = 1; k <= depth; ++k) sheet.seam_pairs.push_back({row[fold - k], row[fold + k], 0});
+  sheet.seam_names = {"pleat"};
+  return sheet;
+}
+
+double width(const Cloth& sheet) {
+  const auto [low, high] =
+      std::minmax_element(sheet.x.begin(), sheet.x.end(), [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
+  return high->x() - low->x();
+}
+
+TEST(Pleats, KnifePleatLiesInThreeLayersClosedAtTheSeam) {
+  Cloth sheet = stitched_sheet({16, 20}, 4);
+  fold_pleats(sheet);
+  EXPECT_NEAR(width(sheet), (40 - 8) * kEdge, kEdge);
+  EXPECT_LT(seam_gap_max(sheet), 1e-9);
+  merge_seams(sheet);
+  EXPECT_TRUE(self_intersections(sheet.x, sheet.triangles).empty());
+}
+
+TEST(Pleats, SeveralPleatsInARow) {
+  Cloth sheet = stitched_sheet({6, 9, 16, 19, 28, 31}, 3);
+  fold_pleats(sheet);
+  EXPECT_NEAR(width(sheet), (40 - 18) * kEdge, kEdge);
+  EXPECT_LT(seam_gap_max(sheet), 1e-9);
+  merge_seams(sheet);
+  EXPECT_TRUE(self_intersections(sheet.x, sheet.triangles).empty());
+}
+
+TEST(Pleats, FoldingDoesNotStretch) {
+  Cloth sheet = stitched_sheet({16, 20}, 4);
+  const Positions flat = sheet.x;
+  fold_pleats(sheet);
+  const std::vector<int> row = top_row(equilateral_sheet(40, 20, kEdge, suiting()));
+  int across = 0;  // triangles that a fold goes through are shortened by it
+  for (const Triangle& t : sheet.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      if (flat[a].z() > 0.15 || flat[b].z() > 0.15) continue;  // near the seam, layers were drawn together
+      const double change = (sheet.x[a] - sheet.x[b]).norm() / (flat[a] - flat[b]).norm() - 1;
+      if (std::abs(change) > 0.02) ++across;
+      EXPECT_LT(change, 0.02);
+    }
+  EXPECT_LT(across, 20 * 2 * 6);
+}
+
+TEST(Pleats, DartTuckAndPlainSheetStayFlat) {
+  Cloth dart = equilateral_sheet(40, 20, kEdge, suiting());
+  Cloth tuck = stitched_sheet({20}, 4);
+  Cloth plain = stitched_sheet({}, 0);
+  for (Cloth* sheet : {&dart, &tuck, &plain}) {
+    const Positions before = sheet->x;
+    fold_pleats(*sheet);
+    EXPECT_EQ(sheet->x, before);
+  }
+}
+
+TEST(Pleats, PleatNoDeeperThanItsTrianglesStaysFlat) {
+  Cloth sheet = stitched_sheet({16, 17}, 1);
+  const Positions before = sheet.x;
+  fold_pleats(sheet);
+  EXPECT_EQ(sheet.x, before);
+}
+
+}  // namespace
+}  // namespace toile::test
