@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <optional>
 
 namespace toile {
@@ -74,24 +75,48 @@ Bodies make_bodies(const Scene& scene, const Cloth& cloth) {
   return bodies;
 }
 
-/// A panel much longer than the body was drawn in another unit than its document says, and sewing it would only take
-/// long. Throws InputError (`implausible_size`).
-void check_size(const Cloth& cloth, const BodyField& body) {
-  constexpr double kLongest = 2;  // times the body's greatest extent
-  const Vec3 extent = body.bounds().upper - body.bounds().lower;
-  if (!extent.allFinite() || cloth.seam_pairs.empty()) return;
-  std::vector<Box> boxes(cloth.panels.size());
+Vec3 extent_of(const Cloth& cloth, const std::function<bool(int)>& counts) {
+  Box box;
   for (std::size_t t = 0; t < cloth.triangles.size(); ++t)
-    for (int v : cloth.triangles[t]) boxes[cloth.triangle_panel[t]].extend(cloth.x[v]);
-  for (std::size_t p = 0; p < boxes.size(); ++p) {
-    if (boxes[p].empty()) continue;
-    const double size = (boxes[p].upper - boxes[p].lower).maxCoeff();
-    if (size <= kLongest * extent.maxCoeff()) continue;
-    char text[200];
+    if (counts(cloth.triangle_panel[t]))
+      for (int v : cloth.triangles[t]) box.extend(cloth.x[v]);
+  return box.empty() ? Vec3(Vec3::Zero()) : Vec3(box.upper - box.lower);
+}
+
+/// Sewn garments whose size beside the body says that they were drawn in another unit than their document names: one
+/// far too long is refused, since sewing it would only take long (throws InputError `implausible_size`); of a tiny one
+/// a warning is left in the cloth.
+void check_size(Cloth& cloth, const BodyField& body) {
+  constexpr double kLongest = 2, kSmallest = 0.12;  // times the body's greatest extent, a panel and a garment
+  if (cloth.seam_pairs.empty() || !(body.bounds().upper - body.bounds().lower).allFinite()) return;
+  const double height = (body.bounds().upper - body.bounds().lower).maxCoeff();
+  char text[240];
+  for (std::size_t p = 0; p < cloth.panels.size(); ++p) {
+    const double size = extent_of(cloth, [&](int panel) { return panel == static_cast<int>(p); }).maxCoeff();
+    if (size <= kLongest * height) continue;
     std::snprintf(text, sizeof text, "panel '%.80s' is %.1f m long and the body %.2f m: are the pattern's units right?",
-                  cloth.panels[p].name.c_str(), size, extent.maxCoeff());
+                  cloth.panels[p].name.c_str(), size, height);
     throw InputError("/garments/" + std::to_string(cloth.panels[p].garment), "implausible_size", text);
   }
+  const int garments = cloth.vertex_garment.empty() ? 0 : 1 + cloth.vertex_garment.back();
+  for (int g = 0; g < garments; ++g) {
+    const double size = extent_of(cloth, [&](int panel) { return cloth.panels[panel].garment == g; }).maxCoeff();
+    if (size >= kSmallest * height) continue;
+    std::snprintf(text, sizeof text,
+                  "implausible_size: garment %d is %.2g m in its longest direction and the body %.2f m: are its units "
+                  "right?",
+                  g, size, height);
+    cloth.warnings.emplace_back(text);
+  }
+}
+
+/// What was found odd about sizes explains best why panels can't be sewn.
+[[noreturn]] void rethrow_with_sizes(const InputError& error, const std::vector<std::string>& warnings) {
+  std::vector<Problem> problems = error.problems();
+  for (const std::string& warning : warnings)
+    if (warning.rfind("implausible_size: ", 0) == 0)
+      problems.push_back({"/garments", "implausible_size", warning.substr(warning.find(' ') + 1)});
+  throw InputError(std::move(problems));
 }
 
 void fill_simulation(const Simulation& simulation, const std::vector<HeldVertex>& held, Drape& drape) {
@@ -131,9 +156,15 @@ Drape drape(const Scene& scene, Monitor& monitor) {
   if (bodies.whole) check_size(apart, *bodies.whole);
 
   stage("assemble", 0.02);
-  Assembly assembly = assemble(scene, std::move(apart), bodies.fields(), [&](const AssemblyState& state) {
-    return reporter({"assemble", 0, 0, state.contacts, 0.02 + (kAssembled - 0.02) * state.fraction});
-  });
+  const std::vector<std::string> found = apart.warnings;
+  Assembly assembly;
+  try {
+    assembly = assemble(scene, std::move(apart), bodies.fields(), [&](const AssemblyState& state) {
+      return reporter({"assemble", 0, 0, state.contacts, 0.02 + (kAssembled - 0.02) * state.fraction});
+    });
+  } catch (const InputError& error) {
+    rethrow_with_sizes(error, found);
+  }
   Drape result;
   result.cloth = std::move(assembly.cloth);
   Report& report = result.report;

@@ -15,8 +15,8 @@ namespace {
 constexpr double kStraight = 1.35;   // outline between a pair's ends by their distance: more goes round a dart
 constexpr double kSameFold = 0.5;    // of an edge, between the middles of pairs of one fold; shallower ones are none
 constexpr double kMatching = 1.5;    // between the depths of a pleat's two folds and their distance, either way
-constexpr double kShallowest = 1.6;  // of an edge: a pleat no deeper than its triangles can't be laid in layers
-constexpr double kDrop = 4e-3;       // [m] from the first layer of a pleat to the third
+constexpr double kShallowest = 1.1;  // of an edge: a pleat no deeper than its triangles can't be laid in layers
+constexpr double kDrop = 0.15;       // of an edge, from the first layer of a pleat to the third
 
 constexpr double kNear = 15e-3;  // [m] folding has brought a pair together
 
@@ -183,30 +183,44 @@ std::vector<std::vector<int>> near_sets(const std::vector<SeamPair>& pairs, cons
   return lists;
 }
 
-/// Moves the vertices of each set to their mean where nothing crosses then.
-void close_sets(const std::vector<std::vector<int>>& sets, const std::vector<Triangle>& triangles, Positions& x) {
+/// Whether the surface crosses itself once each set of `closed` is one vertex.
+bool crosses(const Positions& x, const std::vector<Triangle>& triangles, const std::vector<int>& closed) {
+  std::vector<Triangle> sewn = triangles;
+  std::map<Triangle, int> times;  // two at the tip of a fold come to lie on each other (see merge_seams)
+  for (Triangle& t : sewn) {
+    for (int& v : t) v = closed[v];
+    std::sort(t.begin(), t.end());
+    ++times[t];
+  }
+  std::erase_if(sewn, [&](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || times[t] > 1; });
+  return !self_intersections(x, sewn).empty();
+}
+
+/// Moves the vertices of each set to their mean: all sets at once, or as many as nothing crosses with.
+void close_sets(std::vector<std::vector<int>> sets, const std::vector<Triangle>& triangles, Positions& x) {
   std::vector<int> closed(x.size());
   std::iota(closed.begin(), closed.end(), 0);
-  for (const std::vector<int>& set : sets) {
+  const auto close = [&](const std::vector<std::vector<int>>& chosen) {
     Positions tried = x;
     std::vector<int> with = closed;
-    Vec3 mean = Vec3::Zero();
-    for (int v : set) mean += x[v] / static_cast<double>(set.size());
-    for (int v : set) {
-      tried[v] = mean;
-      with[v] = set.front();
+    for (const std::vector<int>& set : chosen) {
+      Vec3 mean = Vec3::Zero();
+      for (int v : set) mean += x[v] / static_cast<double>(set.size());
+      for (int v : set) {
+        tried[v] = mean;
+        with[v] = set.front();
+      }
     }
-    std::vector<Triangle> sewn = triangles;
-    std::map<Triangle, int> times;  // two at the tip of a fold come to lie on each other (see merge_seams)
-    for (Triangle& t : sewn) {
-      for (int& v : t) v = with[v];
-      std::sort(t.begin(), t.end());
-      ++times[t];
-    }
-    std::erase_if(sewn, [&](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || times[t] > 1; });
-    if (!self_intersections(tried, sewn).empty()) continue;
+    if (crosses(tried, triangles, with)) return false;
     x = std::move(tried);
     closed = std::move(with);
+    return true;
+  };
+  // One set may stand in the way of another until it is closed itself.
+  for (std::size_t before = sets.size() + 1; !sets.empty() && sets.size() < before;) {
+    before = sets.size();
+    if (close(sets)) return;
+    std::erase_if(sets, [&](const std::vector<int>& set) { return close({set}); });
   }
 }
 
@@ -253,7 +267,8 @@ void fold_pleats(Cloth& apart) {
       for (const Vec3& q : panel) shift += (q - folded(pleats, q)) / static_cast<double>(panel.size());
       Positions x = apart.x;
       for (int v : vertices[p])
-        x[v] = folded(pleats, apart.x[v]) + shift - normal * (kDrop * layer_of(pleats, apart.x[v]));
+        x[v] = folded(pleats, apart.x[v]) + shift -
+               normal * (kDrop * apart.panels[p].edge_length * layer_of(pleats, apart.x[v]));
       if (!self_intersections(x, triangles[p]).empty()) continue;
       close_sets(near_sets(own[p], x), triangles[p], x);
       apart.x = std::move(x);

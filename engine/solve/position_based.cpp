@@ -148,18 +148,6 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
     for (const Length& c : bends_) project(x, c, options.bending);
     for (const Length& c : stretch_) project(x, c, 1.0);
     draw(false);
-    for (int v = 0; v < n; ++v) {
-      if (!body_[v] || mobility[v] == 0) continue;
-      const BodyField::Sample& s = body_samples_[v];
-      const double lack = options.body_offset - (s.distance + s.normal.dot(x[v] - start[v]));
-      if (lack > 0) x[v] += s.normal * std::min(lack, limit);
-    }
-    for (int v = 0; v < n; ++v)
-      if (keep_height[v]) x[v].y() = std::max(x[v].y(), floor_[v]);
-    // After the body, since a seam has to close even in an armpit narrower than the offset; but not where it would cut
-    // into an arm.
-    draw(true);
-    // Last, since what a seam presses together until it touches could never part again (see Proximity).
     for (const Contact& c : contacts_) {
       Vec3 p = Vec3::Zero();
       double weight = 0;
@@ -172,6 +160,17 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
       for (int k = 0; k < c.count; ++k)
         x[c.nodes[k]] += c.normal * (mobility[c.nodes[k]] * c.weights[k] * lack / weight);
     }
+    for (int v = 0; v < n; ++v) {
+      if (!body_[v] || mobility[v] == 0) continue;
+      const BodyField::Sample& s = body_samples_[v];
+      const double lack = options.body_offset - (s.distance + s.normal.dot(x[v] - start[v]));
+      if (lack > 0) x[v] += s.normal * std::min(lack, limit);
+    }
+    for (int v = 0; v < n; ++v)
+      if (keep_height[v]) x[v].y() = std::max(x[v].y(), floor_[v]);
+    // Last, since a seam has to close even in an armpit narrower than the offset; but not where it would cut into an
+    // arm.
+    draw(true);
   }
 
   largest_move_ = 0;

@@ -23,7 +23,8 @@ constexpr double kBeyond = 0.02;     // [m] along the limb, of its points that c
 constexpr double kSteepest = 0.7;    // between limb and tube, as a slope
 constexpr double kOpening = 1.15;    // its circumference by its width: its sides stay apart
 constexpr double kDeepest = 1.6;     // tube diameters behind the first point of the limb
-constexpr double kSpacing = 0.02;    // [m] of the points that stand for the body
+constexpr double kWider[] = {0, 6e-3, 12e-3, 20e-3};    // [m] tried in this order until it is free
+constexpr double kSpacing = 0.02;                       // [m] of the points that stand for the body
 constexpr double kSlide = 0.01, kFarthestSlide = 0.12;  // [m] along the limb, until it is free
 
 /// Lowest and highest of the values that fall into each bin along an axis.
@@ -206,7 +207,7 @@ Vec3 axis_of(const Tube& tube, const Positions& limb) {
 }
 
 /// The panel as a part of a cylinder round the limb, its middle where it was.
-Positions rolled(const Tube& tube, const Positions& panel, const Positions& limb, const Vec3& behind) {
+Positions rolled(const Tube& tube, const Positions& panel, const Positions& limb, const Vec3& behind, double wider) {
   const Vec3 axis = axis_of(tube, limb);
   const Vec3 out = -(behind - axis * axis.dot(behind)).normalized();
   Vec3 side = axis.cross(out);
@@ -220,6 +221,7 @@ Positions rolled(const Tube& tube, const Positions& panel, const Positions& limb
     const Vec3 arm = p - core;
     radius = std::max(radius, (arm - axis * axis.dot(arm)).norm() + kClearance);
   }
+  radius += wider;
   const double middle = 0.5 * (tube.from + tube.to);
   double innermost = 0;  // layer of a folded pleat
   for (const Vec3& p : panel) innermost = std::max(innermost, behind.dot(p - tube.center));
@@ -278,10 +280,13 @@ void roll_tubes(Cloth& apart, std::vector<std::string>& part, const BodyFields& 
     Vec3 behind = Vec3::Zero();
     const Positions limb = limb_behind(*tube, body, behind);
     if (limb.size() < kFewest) continue;
-    Positions round = rolled(*tube, panel, limb, behind);
-    if (!slide_free(*fields.whole, tube->along, round)) continue;
-    for (std::size_t i = 0; i < round.size(); ++i) apart.x[panels[p].vertices[i]] = round[i];
-    part[p] = "tube " + std::to_string(p);
+    for (const double wider : kWider) {
+      Positions round = rolled(*tube, panel, limb, behind, wider);
+      if (!slide_free(*fields.whole, tube->along, round)) continue;
+      for (std::size_t i = 0; i < round.size(); ++i) apart.x[panels[p].vertices[i]] = round[i];
+      part[p] = "tube " + std::to_string(p);
+      break;
+    }
   }
 }
 

@@ -203,6 +203,43 @@ TEST(Drape, RefusesAGarmentInsideAHugeBody) {
   }
 }
 
+/// The skirt as if its unit were `scale` times the one that its document names.
+Scene misread_skirt(double scale) {
+  Scene scene = skirt_scene();
+  Pattern& pattern = std::get<Pattern>(scene.garments[0].shape);
+  for (Panel& panel : pattern.panels) {
+    for (Vec2& v : panel.vertices) v *= scale;
+    panel.translation *= scale;
+  }
+  scene.garments[0].edge_length = std::clamp(scene.garments[0].edge_length * scale, 0.003, 0.1);
+  return scene;
+}
+
+std::vector<Problem> problems_of(const Scene& scene) {
+  CountingMonitor monitor;
+  try {
+    drape(scene, monitor);
+  } catch (const InputError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+TEST(Drape, RefusesAPatternReadInAMuchTooLargeUnitByItsSize) {
+  const std::vector<Problem> problems = problems_of(misread_skirt(20));
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].code, "implausible_size");
+  EXPECT_EQ(problems[0].pointer, "/garments/0");
+  EXPECT_NE(problems[0].detail.find("6.9 m long"), std::string::npos) << problems[0].detail;
+}
+
+TEST(Drape, ATinyPatternIsNotDrapedAndItsSizeIsSaid) {
+  CountingMonitor monitor;
+  const Report report = drape(misread_skirt(0.1), monitor).report;
+  EXPECT_EQ(report.status, "failed") << report.stop_reason;
+  EXPECT_TRUE(warns(report, "implausible_size: garment 0 is 0.0"));
+}
+
 TEST(Drape, ABodyWithAHoleCarriesTheClothAndIsToldOf) {
   Scene scene = ball_scene();
   scene.body = Body{MeshBody{ball_mesh(0.1, 16, 32)}, 0.3};
