@@ -14,17 +14,12 @@ double smallest_altitude(const std::array<Vec2, 3>& flat) {
   return longest > 0 ? std::abs(a.x() * b.y() - a.y() * b.x()) / longest : 0;
 }
 
-void add_seam_zones(const Cloth& cloth, SeamZone wanted, CollisionMesh& mesh) {
-  const std::size_t n = cloth.x.size();
-  mesh.seam_zone.assign(n, {});
-  if (!wanted.same_panel) {
-    mesh.panel.assign(n, 0);
-    for (std::size_t t = 0; t < cloth.triangles.size(); ++t)
-      for (int v : cloth.triangles[t]) mesh.panel[v] = cloth.triangle_panel[t];
-  }
-  std::vector<std::set<int>> zone(n);
+/// The numbers of the zones of one kind that each vertex lies in.
+std::vector<std::set<int>> zones_of_vertices(const Cloth& cloth, const SeamZone& wanted, const CollisionMesh& mesh) {
+  std::vector<std::set<int>> zone(cloth.x.size());
   for (const SeamPair& pair : cloth.seam_pairs)
-    for (int v : {pair.a, pair.b}) zone[v].insert(mesh.identity[v]);
+    if ((cloth.x[pair.a] - cloth.x[pair.b]).norm() > wanted.gap)
+      for (int v : {pair.a, pair.b}) zone[v].insert(wanted.same_panel ? -2 - mesh.identity[v] : mesh.identity[v]);
   for (int round = 0; round < wanted.edges; ++round) {
     const std::vector<std::set<int>> before = zone;
     for (const auto& [a, b] : mesh.edges) {
@@ -32,7 +27,7 @@ void add_seam_zones(const Cloth& cloth, SeamZone wanted, CollisionMesh& mesh) {
       zone[b].insert(before[a].begin(), before[a].end());
     }
   }
-  for (std::size_t v = 0; v < n; ++v) mesh.seam_zone[v].assign(zone[v].begin(), zone[v].end());
+  return zone;
 }
 
 }  // namespace
@@ -45,7 +40,7 @@ double default_body_offset(double thickness, double edge_length) {
   return std::max(0.5 * thickness, std::min(0.1 * edge_length, 1.5e-3));
 }
 
-CollisionMesh make_collision_mesh(const Cloth& cloth, double contact_distance, SeamZone zone) {
+CollisionMesh make_collision_mesh(const Cloth& cloth, double contact_distance, const std::vector<SeamZone>& zones) {
   CollisionMesh mesh;
   mesh.triangles = cloth.triangles;
   mesh.identity = seam_representatives(cloth);
@@ -67,7 +62,17 @@ CollisionMesh make_collision_mesh(const Cloth& cloth, double contact_distance, S
     }
   }
   mesh.edges.assign(edges.begin(), edges.end());
-  if (zone.edges > 0) add_seam_zones(cloth, zone, mesh);
+  if (zones.empty()) return mesh;
+  mesh.panel.assign(n, 0);
+  for (std::size_t t = 0; t < cloth.triangles.size(); ++t)
+    for (int v : cloth.triangles[t]) mesh.panel[v] = cloth.triangle_panel[t];
+  mesh.seam_zone.assign(n, {});
+  for (const SeamZone& wanted : zones) {
+    const std::vector<std::set<int>> zone = zones_of_vertices(cloth, wanted, mesh);
+    for (std::size_t v = 0; v < n; ++v)
+      mesh.seam_zone[v].insert(mesh.seam_zone[v].end(), zone[v].begin(), zone[v].end());
+  }
+  for (std::vector<int>& zone : mesh.seam_zone) std::sort(zone.begin(), zone.end());
   return mesh;
 }
 

@@ -11,13 +11,14 @@ namespace toile {
 /// Surface features of the cloth with their contact properties. Vertices of equal `identity` count as one vertex (seam
 /// partners that are still apart), so that features which will share a vertex are never in contact. Nor are features of
 /// two panels that lie in the zone of one seam vertex while the seam closes: its edges may slide through each other, as
-/// fingers turn them the right way round in sewing.
+/// fingers turn them the right way round in sewing. Zones with negative numbers hold within a panel, too.
 struct CollisionMesh {
   std::vector<Triangle> triangles;
   std::vector<std::array<int, 2>> edges;
   std::vector<int> identity;
   std::vector<int> panel;  ///< per vertex, where only features of different panels share zones; else empty
-  std::vector<std::vector<int>> seam_zone;  ///< per vertex: identities of seam vertices nearby, ascending; empty: none
+  /// Per vertex, the zones that it lies in, ascending: the identity of the zone's seam vertex, or −2 − identity.
+  std::vector<std::vector<int>> seam_zone;
   std::vector<double> distance;  ///< per vertex: cloth–cloth repulsion starts here [m]; a pair takes its smallest
   std::vector<double> friction;  ///< per vertex: cloth–cloth Coulomb coefficient; a pair takes the mean of its nodes
 };
@@ -33,11 +34,12 @@ double default_contact_distance(double thickness, double edge_length);
 
 /// `contact_distance` 0 means the default. Around triangles that are small (the pattern's own short edges) the distance
 /// shrinks to 0.3 of the smallest rest altitude, so that a flat sheet never touches itself.
-/// `zone` gives each seam vertex a zone of that many edges around it on either panel.
+/// `zones` give seam vertices zones of that many edges around them on either panel.
 struct SeamZone {
   int edges = 0;
   bool same_panel = false;  ///< features of one panel in the zone ignore each other, too
+  double gap = -1;          ///< only around seam vertices whose partner is farther away than this [m]
 };
-CollisionMesh make_collision_mesh(const Cloth& cloth, double contact_distance, SeamZone zone = {});
+CollisionMesh make_collision_mesh(const Cloth& cloth, double contact_distance, const std::vector<SeamZone>& zones = {});
 
 }  // namespace toile

@@ -70,12 +70,13 @@ bool Proximity::belong_together(const int* a, int na, const int* b, int nb) cons
   for (int i = 0; i < na; ++i)
     for (int j = 0; j < nb; ++j)
       if (mesh_.identity[a[i]] == mesh_.identity[b[j]]) return true;
-  if (mesh_.seam_zone.empty() || (!mesh_.panel.empty() && mesh_.panel[a[0]] == mesh_.panel[b[0]])) return false;
+  if (mesh_.seam_zone.empty()) return false;
+  const bool one_panel = !mesh_.panel.empty() && mesh_.panel[a[0]] == mesh_.panel[b[0]];
   for (int i = 0; i < na; ++i)
     for (int j = 0; j < nb; ++j) {
       const std::vector<int>&u = mesh_.seam_zone[a[i]], &v = mesh_.seam_zone[b[j]];
       for (auto p = u.begin(), q = v.begin(); p != u.end() && q != v.end();) {
-        if (*p == *q) return true;
+        if (*p == *q && (*p < 0 || !one_panel)) return true;
         *p < *q ? ++p : ++q;
       }
     }

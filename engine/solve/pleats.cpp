@@ -262,15 +262,29 @@ void fold_pleats(Cloth& apart) {
         if (in_order(pleats, panel)) break;
       }
       if (!in_order(pleats, panel)) continue;
-      // What is in the middle of the pleats stays about where it is.
-      Vec3 shift = Vec3::Zero();
-      for (const Vec3& q : panel) shift += (q - folded(pleats, q)) / static_cast<double>(panel.size());
       Positions x = apart.x;
       for (int v : vertices[p])
-        x[v] = folded(pleats, apart.x[v]) + shift -
-               normal * (kDrop * apart.panels[p].edge_length * layer_of(pleats, apart.x[v]));
+        x[v] =
+            folded(pleats, apart.x[v]) - normal * (kDrop * apart.panels[p].edge_length * layer_of(pleats, apart.x[v]));
       if (!self_intersections(x, triangles[p]).empty()) continue;
       close_sets(near_sets(own[p], x), triangles[p], x);
+      // Narrower now, the panel goes in its plane to where its seams are to be, or else it may hide its neighbour's
+      // edge.
+      Vec3 shift = Vec3::Zero();
+      int joints = 0;
+      for (const SeamPair& pair : apart.seam_pairs)
+        for (const auto& [own_end, other_end] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)})
+          if (panel_of_vertex[own_end] == static_cast<int>(p) && panel_of_vertex[other_end] != static_cast<int>(p)) {
+            shift += x[other_end] - x[own_end];
+            ++joints;
+          }
+      if (joints == 0) {
+        for (int v : vertices[p]) shift += apart.x[v] - x[v];
+        joints = static_cast<int>(vertices[p].size());
+      }
+      shift /= joints;
+      shift -= normal * normal.dot(shift);
+      for (int v : vertices[p]) x[v] += shift;
       apart.x = std::move(x);
     }
   }

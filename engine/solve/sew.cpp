@@ -26,7 +26,7 @@ struct Manner {
   SeamZone zone;   // where the two sides of a seam pass through each other
 };
 constexpr Manner kManners[] = {{6e-3, 0.6, {2, false}}, {3e-3, 0.85, {3, false}}, {6e-3, 0.85, {4, false}}};
-constexpr SeamZone kWideZone{6, true};  // for seams that stay open
+constexpr SeamZone kWideZone{6, true, kReportedGap};  // where seams stay open
 
 /// A tailor's order: first darts, pleats and what else joins a panel to itself, then the seams that make tubes of each
 /// part (a torso, a sleeve), then those that join the parts, so that a sleeve goes through its armhole as a whole and
@@ -104,8 +104,8 @@ bool better(const Sewn& a, const Sewn& b) {
 Sewn sew_in(AssemblyStage& stage, const Sewing& sewing, Cloth cloth, const Manner& manner) {
   const int garments = static_cast<int>(sewing.scene.garments.size());
   Sewn sewn;
-  for (const SeamZone& zone : {manner.zone, kWideZone}) {
-    const CollisionMesh mesh = make_collision_mesh(cloth, sewing.scene.solver.contact_distance, zone);
+  for (const std::vector<SeamZone>& zones : {std::vector{manner.zone}, std::vector{manner.zone, kWideZone}}) {
+    const CollisionMesh mesh = make_collision_mesh(cloth, sewing.scene.solver.contact_distance, zones);
     PositionBased solver(cloth, mesh, sewing.field);
     solver.keep_height = sewing.keep;
     for (int g = 0; g < garments; ++g) {

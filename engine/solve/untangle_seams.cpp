@@ -41,9 +41,10 @@ CollisionMesh loosened(CollisionMesh mesh, const std::vector<Triangle>& triangle
     for (const auto& [a, b] : mesh.edges)
       if (before[a] || before[b]) loose[a] = loose[b] = 1;
   }
-  constexpr int kLoose = -1;  // a zone of its own
+  constexpr int kLoose = -1;  // a zone of its own, within panels, too
   for (std::size_t v = 0; v < loose.size(); ++v)
-    if (loose[v]) mesh.seam_zone[v].insert(mesh.seam_zone[v].begin(), kLoose);
+    if (loose[v])
+      mesh.seam_zone[v].insert(std::lower_bound(mesh.seam_zone[v].begin(), mesh.seam_zone[v].end(), kLoose), kLoose);
   return mesh;
 }
 

@@ -80,7 +80,7 @@ TEST(CollisionMesh, SeamPartnersHaveOneIdentity) {
 TEST(CollisionMesh, ZonesReachAsManyEdgesFromTheSeamAsAskedFor) {
   const Cloth cloth = two_sewn_sheets();
   for (int reach : {1, 3}) {
-    const CollisionMesh mesh = make_collision_mesh(cloth, 0, {reach, false});
+    const CollisionMesh mesh = make_collision_mesh(cloth, 0, {{reach, false}});
     ASSERT_EQ(mesh.seam_zone.size(), cloth.x.size());
     ASSERT_EQ(mesh.panel.size(), cloth.x.size());
     for (std::size_t v = 0; v < cloth.x.size(); ++v) {
@@ -90,7 +90,27 @@ TEST(CollisionMesh, ZonesReachAsManyEdgesFromTheSeamAsAskedFor) {
       EXPECT_EQ(mesh.panel[v], v < 36 ? 0 : 1);
     }
   }
-  EXPECT_TRUE(make_collision_mesh(cloth, 0, {3, true}).panel.empty());
+}
+
+TEST(CollisionMesh, ZonesWithinAPanelHaveNumbersOfTheirOwn) {
+  const Cloth cloth = two_sewn_sheets();
+  const CollisionMesh mesh = make_collision_mesh(cloth, 0, {{1, false}, {2, true}});
+  for (std::size_t v = 0; v < cloth.x.size(); ++v) {
+    const int column = static_cast<int>(v % 36) % 6, edges_away = v < 36 ? 5 - column : column;
+    const auto negative = [](int zone) { return zone < -1; };
+    EXPECT_EQ(std::any_of(mesh.seam_zone[v].begin(), mesh.seam_zone[v].end(), negative), edges_away <= 2) << v;
+    EXPECT_EQ(std::all_of(mesh.seam_zone[v].begin(), mesh.seam_zone[v].end(), negative), edges_away > 1) << v;
+  }
+}
+
+TEST(CollisionMesh, ZonesOnlyWhereASeamIsWiderThanAskedFor) {
+  Cloth cloth = two_sewn_sheets();
+  const SeamPair& closed = cloth.seam_pairs[0];
+  cloth.x[closed.b] = cloth.x[closed.a];
+  const CollisionMesh mesh = make_collision_mesh(cloth, 0, {{0, true, 1e-3}});
+  EXPECT_TRUE(mesh.seam_zone[closed.a].empty());
+  for (std::size_t k = 1; k < cloth.seam_pairs.size(); ++k)
+    EXPECT_EQ(mesh.seam_zone[cloth.seam_pairs[k].a].size(), 1U);
 }
 
 }  // namespace
