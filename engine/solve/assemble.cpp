@@ -34,7 +34,8 @@ void fall_clear(AssemblyStage& stage, Cloth& cloth, const std::vector<const Body
   std::vector<const BodyField*> field(cloth.x.size(), fields.whole);
   bool any = false;
   for (std::size_t v = 0; v < field_apart.size(); ++v)
-    if (field_apart[v] == fields.without_overhangs) field[old_to_new[v]] = fields.without_overhangs;
+    if (old_to_new[v] >= 0 && field_apart[v] == fields.without_overhangs)
+      field[old_to_new[v]] = fields.without_overhangs;
   for (std::size_t v = 0; v < cloth.x.size(); ++v)
     any = any || (field[v] != fields.whole && fields.whole->distance(cloth.x[v]) < offset);
   if (!any) return;

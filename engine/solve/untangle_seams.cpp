@@ -6,15 +6,16 @@
 #include "engine/solve/untangle.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <set>
 
 namespace toile {
 namespace {
 
-constexpr int kRounds = 120;  // at most
+constexpr int kRounds = 60;  // at most
 constexpr int kRoundsUntilLaidAnew = 10;
-constexpr int kLargestPatch = 8;  // edges around what crosses
+constexpr int kLargestPatch = 6;  // edges around what crosses
 constexpr double kStep = 2e-3;    // [m] per round
 
 /// The collision mesh of a sewn cloth in which the zones of its seams, given for the apart one, still pass through
@@ -115,14 +116,20 @@ std::size_t untangle_seams(AssemblyStage& stage, const Sewing& sewing, Cloth& cl
   options.body_offset = sewing.offset;
   options.carry = 0.5;
   options.bending = 0.5;
-  std::size_t crossing = 0;
+  Positions best = sewn.x;
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  const auto keep_better = [&](std::size_t crossings) {
+    if (crossings >= fewest) return;
+    fewest = crossings;
+    best = sewn.x;
+  };
   for (int s = 0;; ++s) {
     std::vector<TrianglePair> crossings = self_intersections(sewn.x, sewn.triangles);
-    crossing = crossings.size();
+    keep_better(crossings.size());
     if (crossings.empty() || s >= kRounds) break;
     if (s > 0 && s % kRoundsUntilLaidAnew == 0) {
       lay_anew(sewing, field, mobility, std::min(1 + s / kRoundsUntilLaidAnew, kLargestPatch), crossings, sewn);
-      crossing = crossings.size();
+      keep_better(crossings.size());
       if (crossings.empty()) break;
       start_with(loosened(mesh, sewn.triangles, crossings));
     }
@@ -135,8 +142,8 @@ std::size_t untangle_seams(AssemblyStage& stage, const Sewing& sewing, Cloth& cl
     for (int k = 0; k < 3; ++k) stage.step(*solver, sewn.x, options, 0.9);
   }
   for (std::size_t v = 0; v < old_to_new.size(); ++v)
-    if (old_to_new[v] >= 0) cloth.x[v] = sewn.x[old_to_new[v]];
-  return crossing;
+    if (old_to_new[v] >= 0) cloth.x[v] = best[old_to_new[v]];
+  return fewest;
 }
 
 }  // namespace toile
