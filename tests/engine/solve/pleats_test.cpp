@@ -40,23 +40,18 @@ double width(const Cloth& sheet) {
   return high->x() - low->x();
 }
 
-TEST(Pleats, KnifePleatLiesInThreeLayersClosedAtTheSeam) {
-  Cloth sheet = stitched_sheet({16, 20}, 4);
+void expect_folded_and_closed(const std::vector<int>& folds, int depth) {
+  Cloth sheet = stitched_sheet(folds, depth);
   fold_pleats(sheet);
-  EXPECT_NEAR(width(sheet), (40 - 8) * kEdge, kEdge);
+  EXPECT_NEAR(width(sheet), (40 - static_cast<int>(folds.size()) * depth) * kEdge, kEdge);
   EXPECT_LT(seam_gap_max(sheet), 1e-9);
   merge_seams(sheet);
   EXPECT_TRUE(self_intersections(sheet.x, sheet.triangles).empty());
 }
 
-TEST(Pleats, SeveralPleatsInARow) {
-  Cloth sheet = stitched_sheet({6, 9, 16, 19, 28, 31}, 3);
-  fold_pleats(sheet);
-  EXPECT_NEAR(width(sheet), (40 - 18) * kEdge, kEdge);
-  EXPECT_LT(seam_gap_max(sheet), 1e-9);
-  merge_seams(sheet);
-  EXPECT_TRUE(self_intersections(sheet.x, sheet.triangles).empty());
-}
+TEST(Pleats, KnifePleatLiesInThreeLayersClosedAtTheSeam) { expect_folded_and_closed({16, 20}, 4); }
+
+TEST(Pleats, SeveralPleatsInARow) { expect_folded_and_closed({6, 9, 16, 19, 28, 31}, 3); }
 
 TEST(Pleats, FoldingDoesNotStretch) {
   Cloth sheet = stitched_sheet({16, 20}, 4);
