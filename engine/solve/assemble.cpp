@@ -13,9 +13,9 @@
 namespace toile {
 namespace {
 
-constexpr int kRidingSteps = 800;      // at most, of a waistband up the body
-constexpr int kRidingStart = 150;      // steps at least: motion builds up slowly
-constexpr double kRidingStill = 3e-5;  // [m] per step
+constexpr int kRidingSteps = 4000;     // at most, of a waistband up the body: the finer the mesh, the slower
+constexpr int kRidingStretch = 100;    // steps over which it is watched: it jitters more than it moves in one
+constexpr double kRidingStill = 1e-3;  // [m] over that many
 constexpr int kFallingSteps = 400;     // a skirt sewn through raised arms falls below them
 constexpr double kSlitGap = 2e-4;      // [m]
 
@@ -65,9 +65,14 @@ void ride_up(AssemblyStage& stage, Cloth& cloth, const std::vector<const BodyFie
   PositionBasedOptions options;
   options.body_offset = offset;
   options.carry = 0.95;
-  for (int s = 0; s < kRidingSteps; ++s) {
-    stage.step(solver, cloth.x, options, 0.9);
-    if (s > kRidingStart && solver.largest_move() < kRidingStill) break;
+  const bool bands = std::any_of(keep.begin(), keep.end(), [](char k) { return k != 0; });  // they hold the rest
+  for (int s = 0; s < kRidingSteps; s += kRidingStretch) {
+    const Positions before = cloth.x;
+    for (int k = 0; k < kRidingStretch; ++k) stage.step(solver, cloth.x, options, 0.9);
+    double farthest = 0;
+    for (std::size_t v = 0; v < before.size(); ++v)
+      if (!bands || keep[v]) farthest = std::max(farthest, (cloth.x[v] - before[v]).norm());
+    if (farthest < kRidingStill) break;
   }
 }
 
