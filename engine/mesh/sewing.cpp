@@ -74,6 +74,14 @@ std::vector<int> drop_flattened(Cloth& cloth) {
 
 }  // namespace
 
+std::vector<int> panel_of_vertices(const Cloth& apart) {
+  std::vector<int> panel(apart.x.size(), -1);
+  for (std::size_t t = 0; t < apart.triangles.size(); ++t) {
+    for (const int v : apart.triangles[t]) panel[static_cast<std::size_t>(v)] = apart.triangle_panel[t];
+  }
+  return panel;
+}
+
 std::vector<int> seam_representatives(const Cloth& cloth) {
   std::vector<int> parent(cloth.x.size());
   std::iota(parent.begin(), parent.end(), 0);

@@ -7,6 +7,9 @@
 
 namespace toile {
 
+/// Per vertex of a cloth that is still apart, the index of its panel; -1 for a vertex in no triangle.
+std::vector<int> panel_of_vertices(const Cloth& apart);
+
 /// Per vertex, the smallest vertex that seams join it to (itself where it is in no seam). The cloth is unchanged.
 std::vector<int> seam_representatives(const Cloth& cloth);
 

@@ -1,5 +1,6 @@
 #include "engine/solve/pleats.h"
 
+#include "engine/mesh/sewing.h"
 #include "engine/mesh/topology.h"
 #include "engine/quality/intersections.h"
 
@@ -228,11 +229,9 @@ void close_sets(std::vector<std::vector<int>> sets, const std::vector<Triangle>&
 
 void fold_pleats(Cloth& apart) {
   std::vector<std::vector<Triangle>> triangles(apart.panels.size());
-  std::vector<int> panel_of_vertex(apart.x.size(), -1);
-  for (std::size_t t = 0; t < apart.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < apart.triangles.size(); ++t)
     triangles[apart.triangle_panel[t]].push_back(apart.triangles[t]);
-    for (int v : apart.triangles[t]) panel_of_vertex[v] = apart.triangle_panel[t];
-  }
+  const std::vector<int> panel_of_vertex = panel_of_vertices(apart);
   std::vector<std::vector<int>> vertices(apart.panels.size());
   for (std::size_t v = 0; v < apart.x.size(); ++v)
     if (panel_of_vertex[v] >= 0) vertices[panel_of_vertex[v]].push_back(static_cast<int>(v));
@@ -257,11 +256,13 @@ void fold_pleats(Cloth& apart) {
       Positions panel;
       for (int v : vertices[p]) panel.push_back(apart.x[v]);
       std::vector<Pleat> pleats;
+      bool ordered = false;
       for (const Direction direction : {Direction::own, Direction::pleat, Direction::panel}) {
         pleats = directed(found, direction);
-        if (in_order(pleats, panel)) break;
+        ordered = in_order(pleats, panel);
+        if (ordered) break;
       }
-      if (!in_order(pleats, panel)) continue;
+      if (!ordered) continue;
       Positions x = apart.x;
       for (int v : vertices[p])
         x[v] =

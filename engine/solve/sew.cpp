@@ -33,9 +33,7 @@ constexpr SeamZone kWideZone{6, true, kReportedGap};  // where seams stay open
 /// no corner of it is caught between two layers.
 std::vector<std::vector<SeamPull>> seams_in_order(const Cloth& cloth, int garment,
                                                   const std::vector<std::string>& part) {
-  std::vector<int> panel_of_vertex(cloth.x.size(), 0);
-  for (std::size_t t = 0; t < cloth.triangles.size(); ++t)
-    for (int v : cloth.triangles[t]) panel_of_vertex[v] = cloth.triangle_panel[t];
+  const std::vector<int> panel_of_vertex = panel_of_vertices(cloth);
   std::vector<std::vector<SeamPull>> stages(3);
   for (const SeamPair& pair : cloth.seam_pairs) {
     if (cloth.vertex_garment[pair.a] > garment) continue;

@@ -1,5 +1,6 @@
 #include "engine/solve/sleeves.h"
 
+#include "engine/mesh/sewing.h"
 #include "engine/solve/body_parts.h"
 
 #include <Eigen/Eigenvalues>
@@ -69,12 +70,11 @@ Vec3 long_axis(const Positions& points) {
 
 std::vector<PanelVertices> vertices_of_panels(const Cloth& cloth) {
   std::vector<PanelVertices> panels(cloth.panels.size());
-  std::vector<int> panel_of_vertex(cloth.x.size(), -1);
+  const std::vector<int> panel_of_vertex = panel_of_vertices(cloth);
   for (std::size_t t = 0; t < cloth.triangles.size(); ++t) {
     const Triangle& tri = cloth.triangles[t];
     panels[cloth.triangle_panel[t]].normal +=
         (cloth.x[tri[1]] - cloth.x[tri[0]]).cross(cloth.x[tri[2]] - cloth.x[tri[0]]);
-    for (int v : tri) panel_of_vertex[v] = cloth.triangle_panel[t];
   }
   for (std::size_t v = 0; v < cloth.x.size(); ++v)
     if (panel_of_vertex[v] >= 0) panels[panel_of_vertex[v]].vertices.push_back(static_cast<int>(v));
