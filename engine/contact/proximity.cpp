@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <unordered_set>
 
 namespace toile {
@@ -53,6 +54,8 @@ std::uint64_t key_of(const Contact& contact) {
   return h;
 }
 
+constexpr int kSweeps = 4;  // of taking off a move what goes against planes, before it is scaled
+
 struct Measured {
   double distance = 0;
   Contact contact;
@@ -81,6 +84,13 @@ bool Proximity::belong_together(const int* a, int na, const int* b, int nb) cons
       }
     }
   return false;
+}
+
+Proximity::Plane Proximity::plane_between(const Contact& pair, double distance, int first_side, const Positions& x) {
+  // The nearest points of convex features: each feature lies wholly behind its own.
+  Vec3 nearest = Vec3::Zero();
+  for (int k = 0; k < first_side; ++k) nearest += pair.weights[k] * x[pair.nodes[k]];
+  return {pair.nodes, first_side, pair.normal, pair.normal.dot(nearest) - 0.5 * distance};
 }
 
 void Proximity::rebuild_list(const Positions& x) {
@@ -139,7 +149,7 @@ void Proximity::update(const Positions& x) {
     moved2 = 0;
   }
   // Whatever is not listed was farther than the radius when the list was made.
-  const double unlisted = list_radius_ - 2 * std::sqrt(moved2);
+  unlisted_ = list_radius_ - 2 * std::sqrt(moved2);
 
   const int vt = static_cast<int>(vertex_triangle_.size()), total = vt + static_cast<int>(edge_edge_.size());
   std::vector<Measured> measured(total);
@@ -173,15 +183,17 @@ void Proximity::update(const Positions& x) {
     }
   });
 
-  bounds_.assign(x.size(), unlisted);
-  smallest_distance_ = unlisted;
+  bounds_.assign(x.size(), unlisted_);
+  smallest_distance_ = unlisted_;
   contacts_.clear();
+  planes_.clear();
   std::unordered_set<std::uint64_t> seen;
   for (int i = 0; i < total; ++i) {
     Contact& c = measured[i].contact;
     const double d = measured[i].distance;
     for (int k = 0; k < 4; ++k) bounds_[c.nodes[k]] = std::min(bounds_[c.nodes[k]], d);
     smallest_distance_ = std::min(smallest_distance_, d);
+    planes_.push_back(plane_between(c, d, i < vt ? 1 : 2, x));
     if (d >= c.distance || d <= 0) continue;
     // An edge pair whose nearest points include an end is a vertex–triangle pair too.
     const bool interior = i < vt || (c.weights[0] > kFeatureTolerance && c.weights[1] > kFeatureTolerance &&
@@ -191,6 +203,53 @@ void Proximity::update(const Positions& x) {
     if (seen.insert(c.key).second) contacts_.push_back(c);
   }
   for (double& bound : bounds_) bound = kBoundFraction * std::max(0.0, bound - kRoundOff);
+}
+
+long Proximity::limit_moves(const Positions& x, Positions& to) const {
+  struct HalfSpace {
+    Vec3 inward;
+    double slack;  // that may be used up against it [m]
+  };
+  const double free = kBoundFraction * std::max(0.0, unlisted_ - kRoundOff);
+  const auto each = [&](auto&& visit) {
+    for (const Plane& plane : planes_)
+      for (int k = 0; k < 4; ++k) {
+        const Vec3 inward = k < plane.count ? plane.normal : Vec3(-plane.normal);
+        const double height = std::abs(plane.normal.dot(x[plane.nodes[k]]) - plane.offset);
+        const double slack = 2 * kBoundFraction * std::max(0.0, height - 0.5 * kRoundOff);
+        if (slack < free) visit(plane.nodes[k], HalfSpace{inward, slack});
+      }
+  };
+  std::vector<int> first(x.size() + 1, 0);
+  each([&](int v, const HalfSpace&) { ++first[v + 1]; });
+  for (std::size_t v = 0; v < x.size(); ++v) first[v + 1] += first[v];
+  std::vector<HalfSpace> half_spaces(first.back());
+  std::vector<int> next(first.begin(), first.end() - 1);
+  each([&](int v, const HalfSpace& half_space) { half_spaces[next[v]++] = half_space; });
+
+  std::vector<char> shortened(x.size(), 0);
+  tbb::parallel_for(
+      tbb::blocked_range<int>(0, static_cast<int>(x.size()), kBlock), [&](const tbb::blocked_range<int>& range) {
+        for (int v = range.begin(); v < range.end(); ++v) {
+          const std::span<const HalfSpace> limits(half_spaces.data() + first[v], half_spaces.data() + first[v + 1]);
+          Vec3 move = to[v] - x[v];
+          const double length = move.norm();
+          if (length > free) move *= free / length;
+          for (int sweep = 0; sweep < kSweeps; ++sweep)
+            for (const HalfSpace& limit : limits) {
+              const double over = -limit.slack - limit.inward.dot(move);
+              if (over > 0) move += over * limit.inward;
+            }
+          double share = 1;
+          for (const HalfSpace& limit : limits) {
+            const double towards = -limit.inward.dot(move);
+            if (towards > limit.slack) share = std::min(share, limit.slack / towards);
+          }
+          shortened[v] = share < 1 || move != to[v] - x[v];
+          if (shortened[v]) to[v] = x[v] + share * move;
+        }
+      });
+  return std::count(shortened.begin(), shortened.end(), 1);
 }
 
 long limit_displacements(const Positions& from, const std::vector<double>& bounds, Positions& x) {

@@ -6,12 +6,15 @@
 // exact at every update. With d_v the distance from anything that vertex v belongs to, to the nearest other feature,
 // moving every vertex by less than ½ d_v can't make features cross (both sides of a pair lose less than its distance).
 // This is the displacement bound of Chen, Hsu, Liu, Macklin, Yang and Yuksel, "Offset Geometric Contact", SIGGRAPH
-// 2025, §4; it makes discrete detection safe where the first seed (§3.3) relies on small steps alone.
+// 2025, §4; it makes discrete detection safe where the first seed (§3.3) relies on small steps alone. It holds in every
+// direction, so layers that are pressed together can't slide any more. limit_moves() asks less: each side of a pair
+// stays on its side of the plane that halves their distance, which leaves sliding and parting free.
 
 #include "engine/contact/collision_mesh.h"
 #include "engine/contact/contact.h"
 #include "engine/geometry/bvh.h"
 
+#include <array>
 #include <vector>
 
 namespace toile {
@@ -31,6 +34,11 @@ class Proximity {
   /// Per vertex: how far it may move from the last update [m].
   const std::vector<double>& displacement_bounds() const { return bounds_; }
 
+  /// Shortens the moves from the last update's positions x to `to` such that no two features cross on the way, in which
+  /// every vertex goes straight: what a move has towards the plane between two features is taken off it where it would
+  /// come too near, and what is left is scaled where planes contradict. Deterministic. Returns how many were shortened.
+  long limit_moves(const Positions& x, Positions& to) const;
+
   /// Smallest distance between features that share no vertex, as far as the list reaches [m].
   double smallest_distance() const { return smallest_distance_; }
 
@@ -40,6 +48,14 @@ class Proximity {
   struct Pair {
     int a, b;  // vertex and triangle, or two edges
   };
+  /// The plane n·p = offset between the two sides of a pair; the first `count` nodes lie above it.
+  struct Plane {
+    std::array<int, 4> nodes;
+    int count;
+    Vec3 normal;
+    double offset;
+  };
+  static Plane plane_between(const Contact& pair, double distance, int first_side, const Positions& x);
   void rebuild_list(const Positions& x);
   bool belong_together(const int* a, int na, const int* b, int nb) const;
 
@@ -50,6 +66,8 @@ class Proximity {
   std::vector<Pair> vertex_triangle_, edge_edge_;
   std::vector<Contact> contacts_;
   std::vector<double> bounds_;
+  std::vector<Plane> planes_;
+  double unlisted_ = 0;  ///< distance of what is not in the lists, at least [m]
   double smallest_distance_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "engine/mesh/sewing.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -14,6 +15,21 @@ int find_root(std::vector<int>& parent, int vertex) {
     vertex = up;
   }
   return vertex;
+}
+
+std::vector<int> representatives(std::size_t vertices, const std::vector<SeamPair>& pairs) {
+  std::vector<int> parent(vertices);
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const SeamPair& pair : pairs) {
+    const int a = find_root(parent, pair.a), b = find_root(parent, pair.b);
+    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+  for (int v = 0; v < static_cast<int>(parent.size()); ++v) parent[static_cast<std::size_t>(v)] = find_root(parent, v);
+  return parent;
+}
+
+double gap_of(const Cloth& cloth, const SeamPair& pair) {
+  return (cloth.x[static_cast<std::size_t>(pair.a)] - cloth.x[static_cast<std::size_t>(pair.b)]).norm();
 }
 
 /// Per triangle: its corners became one, or it lies on another with the same three corners, as the two at the tip of a
@@ -82,27 +98,20 @@ std::vector<int> panel_of_vertices(const Cloth& apart) {
   return panel;
 }
 
-std::vector<int> seam_representatives(const Cloth& cloth) {
-  std::vector<int> parent(cloth.x.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  for (const SeamPair& pair : cloth.seam_pairs) {
-    const int a = find_root(parent, pair.a), b = find_root(parent, pair.b);
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
-  for (int v = 0; v < static_cast<int>(parent.size()); ++v) parent[static_cast<std::size_t>(v)] = find_root(parent, v);
-  return parent;
-}
+std::vector<int> seam_representatives(const Cloth& cloth) { return representatives(cloth.x.size(), cloth.seam_pairs); }
 
 double seam_gap_max(const Cloth& cloth) {
   double gap = 0;
   for (const SeamPair& pair : cloth.seam_pairs) {
-    gap = std::max(gap, (cloth.x[static_cast<std::size_t>(pair.a)] - cloth.x[static_cast<std::size_t>(pair.b)]).norm());
+    gap = std::max(gap, gap_of(cloth, pair));
   }
   return gap;
 }
 
-std::vector<int> merge_seams(Cloth& cloth) {
-  const std::vector<int> root = seam_representatives(cloth);
+std::vector<int> merge_closed_seams(Cloth& cloth, double gap) {
+  std::vector<SeamPair> closed, open;
+  for (const SeamPair& pair : cloth.seam_pairs) (gap_of(cloth, pair) <= gap ? closed : open).push_back(pair);
+  const std::vector<int> root = representatives(cloth.x.size(), closed);
   std::vector<int> renumbered(root.size(), -1), members;
   Positions merged;
   std::vector<int> garment;
@@ -132,7 +141,15 @@ std::vector<int> merge_seams(Cloth& cloth) {
     label.vertices.erase(std::unique(label.vertices.begin(), label.vertices.end()), label.vertices.end());
   }
   cloth.seam_pairs.clear();
+  for (const SeamPair& pair : open) {
+    const int a = renumbered[static_cast<std::size_t>(pair.a)], b = renumbered[static_cast<std::size_t>(pair.b)];
+    if (a >= 0 && b >= 0 && a != b) cloth.seam_pairs.push_back({a, b, pair.seam});
+  }
   return renumbered;
+}
+
+std::vector<int> merge_seams(Cloth& cloth) {
+  return merge_closed_seams(cloth, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace toile

@@ -22,4 +22,7 @@ double seam_gap_max(const Cloth& cloth);
 /// other. Returns the new index of each old vertex, -1 for a dropped one.
 std::vector<int> merge_seams(Cloth& cloth);
 
+/// The same of the pairs alone whose vertices are no farther apart than `gap` [m]; the others stay in seam_pairs.
+std::vector<int> merge_closed_seams(Cloth& cloth, double gap);
+
 }  // namespace toile

@@ -9,6 +9,7 @@
 #include "engine/solve/sleeves.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace toile {
 namespace {
@@ -18,6 +19,7 @@ constexpr int kRidingStretch = 100;    // steps over which it is watched: it jit
 constexpr double kRidingStill = 1e-3;  // [m] over that many
 constexpr int kFallingSteps = 400;     // a skirt sewn through raised arms falls below them
 constexpr double kSlitGap = 2e-4;      // [m]
+constexpr double kPressedGap = 1e-9;   // [m] folding has closed what is nearer
 
 double body_offset(const Cloth& cloth, const SolverOptions& solver) {
   if (solver.body_offset > 0) return solver.body_offset;
@@ -81,22 +83,29 @@ void ride_up(AssemblyStage& stage, Cloth& cloth, const std::vector<const BodyFie
 Assembly assemble(const Scene& scene, Cloth apart, const BodyFields& fields, const AssemblyProgress& progress) {
   AssemblyStage stage{scene, progress};
   Assembly result;
+  const bool sewn_from_panels = !apart.seam_pairs.empty();
+  std::vector<std::string> part;
+  std::vector<int> pressed(apart.x.size());  // vertex of the cloth as it came → of the one with its pleats closed
+  std::iota(pressed.begin(), pressed.end(), 0);
+  if (sewn_from_panels) {
+    part = part_of_panels(apart, fields);
+    fold_pleats(apart);
+    center_sleeves(apart, part, fields);
+    roll_tubes(apart, part, fields);
+    pressed = merge_closed_seams(apart, kPressedGap);
+  }
   const std::vector<const BodyField*> field = field_of_vertices(apart, fields);
   const double offset = body_offset(apart, scene.solver);
   std::vector<char> keep(apart.x.size(), 0), held(apart.x.size(), 0);
   for (std::size_t g = 0; g < scene.garments.size(); ++g)
     for (const Pin& pin : scene.garments[g].pins) {
       // Vertices are numbered as in the sewn mesh, which is yet to come.
-      if (std::holds_alternative<PinVertices>(pin.select) && !apart.seam_pairs.empty()) continue;
+      if (std::holds_alternative<PinVertices>(pin.select) && sewn_from_panels) continue;
       for (int v : pinned_vertices(pin, static_cast<int>(g), apart))
         (std::holds_alternative<PinAttached>(pin.hold) ? keep : held)[v] = 1;
     }
 
-  if (!apart.seam_pairs.empty()) {
-    std::vector<std::string> part = part_of_panels(apart, fields);
-    fold_pleats(apart);
-    center_sleeves(apart, part, fields);
-    roll_tubes(apart, part, fields);
+  if (sewn_from_panels) {
     clear_panels(apart, field, offset, 0.4);
     open_slits(apart, kSlitGap);
     const Sewing sewing{scene, fields, field, keep, held, part, offset};
@@ -109,23 +118,24 @@ Assembly assemble(const Scene& scene, Cloth apart, const BodyFields& fields, con
     refuse_enclosed_panels(apart, field);
   }
   result.cloth = std::move(apart);
-  result.old_to_new = merge_seams(result.cloth);
+  const std::vector<int> merged = merge_seams(result.cloth);
   std::vector<char> sewn_keep(result.cloth.x.size(), 0), sewn_held(result.cloth.x.size(), 0);
-  for (std::size_t v = 0; v < result.old_to_new.size(); ++v) {
-    if (result.old_to_new[v] < 0) continue;
-    sewn_keep[result.old_to_new[v]] |= keep[v];
-    sewn_held[result.old_to_new[v]] |= held[v];
+  for (std::size_t v = 0; v < merged.size(); ++v) {
+    if (merged[v] < 0) continue;
+    sewn_keep[merged[v]] |= keep[v];
+    sewn_held[merged[v]] |= held[v];
   }
   if (stage.steps > 0 && result.open_seams.empty()) {
     std::vector<const BodyField*> sewn_field(result.cloth.x.size(), fields.whole);
     for (std::size_t v = 0; v < field.size(); ++v)
-      if (result.old_to_new[v] >= 0 && field[v] != fields.whole) sewn_field[result.old_to_new[v]] = field[v];
+      if (merged[v] >= 0 && field[v] != fields.whole) sewn_field[merged[v]] = field[v];
     ride_up(stage, result.cloth, sewn_field, sewn_keep, sewn_held, offset);
   }
   if (fields.without_overhangs && result.open_seams.empty())
-    fall_clear(stage, result.cloth, field, result.old_to_new, fields, sewn_keep, sewn_held, offset);
+    fall_clear(stage, result.cloth, field, merged, fields, sewn_keep, sewn_held, offset);
   for (std::size_t v = 0; v < sewn_keep.size(); ++v)
     if (sewn_keep[v]) result.attached.push_back(static_cast<int>(v));
+  for (const int v : pressed) result.old_to_new.push_back(v < 0 ? -1 : merged[v]);
   result.steps = stage.steps;
   return result;
 }

@@ -3,9 +3,10 @@
 #include "engine/mesh/sewing.h"
 #include "engine/mesh/topology.h"
 #include "engine/quality/intersections.h"
+#include "engine/solve/pleat_folds.h"
+#include "engine/solve/pleat_layers.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -13,117 +14,45 @@
 namespace toile {
 namespace {
 
-constexpr double kStraight = 1.35;   // outline between a pair's ends by their distance: more goes round a dart
-constexpr double kSameFold = 0.5;    // of an edge, between the middles of pairs of one fold; shallower ones are none
-constexpr double kMatching = 1.5;    // between the depths of a pleat's two folds and their distance, either way
 constexpr double kShallowest = 1.1;  // of an edge: a pleat no deeper than its triangles can't be laid in layers
 constexpr double kDrop = 0.15;       // of an edge, from the first layer of a pleat to the third
-
+constexpr double kSamePlace = 0.5;   // of a pleat's depth: folds that meet after folding
+constexpr double kApex = 1.02;       // of the way to the farthest point of the panel
+constexpr double kAcross = 4;    // times the depth of the deepest pleat: no seam of a pleat joins what is farther apart
+constexpr double kBoxGap = 0.1;  // of an edge, between the two folds that face each other in a box pleat
 constexpr double kNear = 15e-3;  // [m] folding has brought a pair together
 
-/// Where the outline is mapped onto itself.
-struct Fold {
-  double middle = 0;  // along the outline [m]
-  double depth = 0;   // [m]
-  Vec3 at = Vec3::Zero(), way = Vec3::Zero();
-  int pairs = 0;
-};
+/// How the lines of the pleats run: as their pairs say, which brings those together exactly; parallel in each pleat;
+/// parallel in the panel, for lines that would meet in it otherwise; or towards each other, so that each pleat ends at
+/// the panel's other side, which keeps its width.
+enum class Direction { own, pleat, panel, tapered };
 
-/// A line in the panel's plane; `beyond` is a unit normal to it, to the side that folding moves.
-struct Line {
-  Vec3 at, beyond;
-  double side(const Vec3& p) const { return beyond.dot(p - at); }
-  Vec3 mirrored(const Vec3& p) const { return p - 2 * side(p) * beyond; }
-};
-
-/// Two folds of one pleat, the first before the second.
-struct Pleat {
-  Line first, second;
-  double depth = 0;  // between them [m]
-};
-
-struct Outline {
-  std::map<int, double> place;  // vertex → way along the loop [m]
-  double length = 0;
-
-  Outline(const std::vector<int>& vertices, const Positions& x) {
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      place[vertices[i]] = length;
-      length += (x[vertices[(i + 1) % vertices.size()]] - x[vertices[i]]).norm();
-    }
+/// The two lines of a pleat, turned to meet where it would come to the other side of the panel.
+void taper(Pleat& pleat, const Vec3& normal, const Positions& panel, double edge_length) {
+  const Vec3 across = pleat.first.beyond, middle = 0.5 * (pleat.first.at + pleat.second.at);
+  const Vec3 along = normal.cross(across);
+  double ahead = 0, behind = 0;
+  for (const Vec3& p : panel) {
+    if (std::abs(across.dot(p - middle)) > pleat.depth + edge_length) continue;
+    ahead = std::max(ahead, along.dot(p - middle));
+    behind = std::max(behind, -along.dot(p - middle));
   }
-};
-
-/// The pair as a fold of the outline, if the outline runs straight from one to the other.
-std::optional<Fold> fold_of(const Outline& outline, const Positions& x, int a, int b) {
-  const auto pa = outline.place.find(a), pb = outline.place.find(b);
-  if (pa == outline.place.end() || pb == outline.place.end() || a == b) return std::nullopt;
-  double from = pa->second, to = pb->second;
-  if (from > to) std::swap(from, to), std::swap(a, b);
-  if (to - from > 0.5 * outline.length) {
-    std::swap(a, b);
-    std::swap(from, to);
-    to += outline.length;
+  const Vec3 apex = middle + kApex * (ahead > behind ? ahead : -behind) * along;
+  for (Line* line : {&pleat.first, &pleat.second}) {
+    const Vec3 way = (apex - line->at).normalized();
+    line->beyond = (across - way * way.dot(across)).normalized();
   }
-  const Vec3 way = x[b] - x[a];
-  if (to - from > kStraight * way.norm()) return std::nullopt;
-  return Fold{0.5 * (from + to), 0.5 * (to - from), 0.5 * (x[a] + x[b]), way, 1};
 }
 
-std::vector<Fold> folds_of(const Outline& outline, const Positions& x, const std::vector<SeamPair>& pairs,
-                           double edge_length) {
-  std::vector<Fold> single;
-  for (const SeamPair& pair : pairs)
-    if (const std::optional<Fold> fold = fold_of(outline, x, pair.a, pair.b))
-      if (fold->depth > kSameFold * edge_length) single.push_back(*fold);
-  std::stable_sort(single.begin(), single.end(), [](const Fold& a, const Fold& b) { return a.middle < b.middle; });
-  std::vector<Fold> folds;
-  for (const Fold& fold : single) {
-    if (folds.empty() || fold.middle - folds.back().middle / folds.back().pairs > kSameFold * edge_length) {
-      folds.push_back(fold);
-      continue;
-    }
-    Fold& same = folds.back();
-    same.middle += fold.middle;
-    same.at += fold.at;
-    same.way += fold.way;
-    same.depth = std::max(same.depth, fold.depth);
-    ++same.pairs;
-  }
-  for (Fold& fold : folds) {
-    fold.middle /= fold.pairs;
-    fold.at /= fold.pairs;
-  }
-  return folds;
-}
-
-/// Folds beside each other, two by two, in the order of the outline.
-std::vector<Pleat> pleats_of(const std::vector<Fold>& folds, const Vec3& normal) {
-  const auto line = [&](const Fold& fold) {
-    return Line{fold.at, (fold.way - normal * normal.dot(fold.way)).normalized()};
-  };
-  std::vector<Pleat> pleats;
-  for (std::size_t i = 0; i + 1 < folds.size(); ++i) {
-    const double between = folds[i + 1].middle - folds[i].middle;
-    const auto [shallow, deep] = std::minmax(folds[i].depth, folds[i + 1].depth);
-    if (between > kMatching * shallow || deep > kMatching * between) continue;
-    pleats.push_back({line(folds[i]), line(folds[i + 1]), between});
-    ++i;
-  }
-  return pleats;
-}
-
-/// How the lines of the pleats run: as their pairs say, which brings those together exactly; parallel in each pleat; or
-/// parallel in the panel, for lines that would meet in it otherwise.
-enum class Direction { own, pleat, panel };
-
-std::vector<Pleat> directed(std::vector<Pleat> pleats, Direction direction) {
+std::vector<Pleat> directed(std::vector<Pleat> pleats, Direction direction, const Vec3& normal, const Positions& panel,
+                            double edge_length) {
   Vec3 common = Vec3::Zero();
   for (const Pleat& pleat : pleats) common += pleat.first.beyond + pleat.second.beyond;
   for (Pleat& pleat : pleats) {
     if (direction == Direction::own) break;
     const Vec3 way = direction == Direction::pleat ? pleat.first.beyond + pleat.second.beyond : common;
     pleat.first.beyond = pleat.second.beyond = way.normalized();
+    if (direction == Direction::tapered) taper(pleat, normal, panel, edge_length);
   }
   return pleats;
 }
@@ -141,26 +70,50 @@ bool in_order(const std::vector<Pleat>& pleats, const Positions& panel) {
   });
 }
 
-/// Where folding brings a point, in the plane: last folds first, while what comes before them is still flat.
-Vec3 folded(const std::vector<Pleat>& pleats, const Vec3& flat) {
+/// Where folding brings a point, in the plane: last pleats first, while what comes before them is still flat. Where a
+/// pleat is no deeper than `thin` [m], triangles are too large to lie in its layers: there what is beyond it moves up
+/// as if it were folded, and what is in it is crowded between.
+Vec3 folded(const std::vector<Pleat>& pleats, const Vec3& flat, double thin) {
   Vec3 p = flat;
-  for (auto pleat = pleats.rbegin(); pleat != pleats.rend(); ++pleat)
-    for (const Line* line : {&pleat->second, &pleat->first})
-      if (line->side(flat) > 0) p = line->mirrored(p);
+  for (auto pleat = pleats.rbegin(); pleat != pleats.rend(); ++pleat) {
+    const double s = pleat->first.side(flat), t = pleat->second.side(flat), depth = std::max(0.0, s - t);
+    if (depth < thin) {
+      const double before = std::max(2 * depth, thin),
+                   share = std::clamp((s + before) / (2 * before + depth), 0.0, 1.0);
+      p += share * (pleat->first.mirrored(pleat->second.mirrored(p)) - p);
+      continue;
+    }
+    if (t > 0) p = pleat->second.mirrored(p);
+    if (s > 0) p = pleat->first.mirrored(p);
+  }
   return p;
 }
 
-/// How far down its layer lies, in drops of a pleat: it rises all the way, so that no layer meets another.
-double layer_of(const std::vector<Pleat>& pleats, const Vec3& p) {
+/// For each pleat 1 if its layers go down, -1 if they come up again. All go down in knife pleats. In a box pleat, the
+/// second of two pleats comes up: its last fold lies beside the first one's first.
+std::vector<int> ways_of(const std::vector<Pleat>& pleats, bool boxes) {
+  std::vector<int> ways(pleats.size(), 1);
+  for (std::size_t i = 0; boxes && i + 1 < pleats.size(); ++i) {
+    const Vec3 first = folded(pleats, pleats[i].first.at, 0), last = folded(pleats, pleats[i + 1].second.at, 0);
+    if (std::abs(pleats[i].first.beyond.dot(first - last)) > kSamePlace * pleats[i].depth) continue;
+    ways[++i] = -1;
+  }
+  return ways;
+}
+
+/// How far down a place lies, in drops of a pleat: it changes all the way along the outline, so that no layer of a
+/// pleat meets another.
+double layer_of(const std::vector<Pleat>& pleats, const std::vector<int>& ways, const Vec3& p) {
   double layer = 0;
-  for (const Pleat& pleat : pleats) {
+  for (std::size_t i = 0; i < pleats.size(); ++i) {
+    const Pleat& pleat = pleats[i];
     const double s = pleat.first.side(p), t = pleat.second.side(p);
     if (s <= 0)
-      layer += std::max(0.0, s / pleat.depth + 1) / 3;
+      layer += ways[i] * std::max(0.0, s / pleat.depth + 1) / 3;
     else if (t <= 0)
-      layer += (1 + s / (s - t)) / 3;
+      layer += ways[i] * (1 + s / (s - t)) / 3;
     else
-      layer += (2 + std::min(1.0, t / pleat.depth)) / 3;
+      layer += ways[i] * (2 + std::min(1.0, t / pleat.depth)) / 3;
   }
   return layer;
 }
@@ -184,109 +137,139 @@ std::vector<std::vector<int>> near_sets(const std::vector<SeamPair>& pairs, cons
   return lists;
 }
 
-/// Whether the surface crosses itself once each set of `closed` is one vertex.
-bool crosses(const Positions& x, const std::vector<Triangle>& triangles, const std::vector<int>& closed) {
-  std::vector<Triangle> sewn = triangles;
-  std::map<Triangle, int> times;  // two at the tip of a fold come to lie on each other (see merge_seams)
-  for (Triangle& t : sewn) {
-    for (int& v : t) v = closed[v];
-    std::sort(t.begin(), t.end());
-    ++times[t];
+/// A panel that is to be folded, with what of it is its own.
+struct FlatPanel {
+  const Cloth& cloth;
+  std::vector<Triangle> triangles;
+  std::vector<int> vertices;
+  std::vector<SeamPair> own;
+  Vec3 normal = Vec3::Zero();
+  double edge_length = 0;
+};
+
+/// The panel folded, and closed where its pairs have come near if `close`; nothing if it crosses itself then.
+std::optional<Positions> laid(const FlatPanel& panel, const std::vector<Pleat>& pleats, const std::vector<int>& ways,
+                              bool close) {
+  const Positions& flat = panel.cloth.x;
+  Positions x = flat;
+  for (int v : panel.vertices) x[v] = folded(pleats, flat[v], kShallowest * panel.edge_length);
+  FoldedPanel folding{panel.triangles, std::vector<int>(x.size()), std::vector<Vec2>(x.size(), Vec2::Zero()),
+                      std::vector<double>(x.size(), 0.0)};
+  std::iota(folding.joined.begin(), folding.joined.end(), 0);
+  const double drop = kDrop * panel.edge_length;
+  for (int v : panel.vertices) folding.height[v] = -drop * layer_of(pleats, ways, flat[v]);
+  for (const std::vector<int>& set : close ? near_sets(panel.own, x) : std::vector<std::vector<int>>{}) {
+    Vec3 mean = Vec3::Zero();
+    double height = 0;
+    for (int v : set) {
+      mean += x[v] / static_cast<double>(set.size());
+      height += folding.height[v] / static_cast<double>(set.size());
+    }
+    for (int v : set) {
+      x[v] = mean;
+      folding.height[v] = height;
+      folding.joined[v] = set.front();
+    }
   }
-  std::erase_if(sewn, [&](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || times[t] > 1; });
-  return !self_intersections(x, sewn).empty();
+  const Vec3 along = pleats.front().first.beyond, across = panel.normal.cross(along);
+  for (int v : panel.vertices) folding.plane[v] = {along.dot(x[v]), across.dot(x[v])};
+  const auto layer = [&](const Triangle& t, const Vec3& weights) {
+    return layer_of(pleats, ways, flat[t[0]] * weights[0] + flat[t[1]] * weights[1] + flat[t[2]] * weights[2]);
+  };
+  if (close) lay_in_order(folding, layer, drop);
+  for (int v : panel.vertices) x[v] += panel.normal * folding.height[v];
+  std::vector<Triangle> sewn = kept_triangles(folding);
+  for (Triangle& t : sewn)
+    for (int& v : t) v = folding.joined[v];
+  if (!self_intersections(x, sewn).empty()) return std::nullopt;
+  return x;
 }
 
-/// Moves the vertices of each set to their mean: all sets at once, or as many as nothing crosses with.
-void close_sets(std::vector<std::vector<int>> sets, const std::vector<Triangle>& triangles, Positions& x) {
-  std::vector<int> closed(x.size());
-  std::iota(closed.begin(), closed.end(), 0);
-  const auto close = [&](const std::vector<std::vector<int>>& chosen) {
-    Positions tried = x;
-    std::vector<int> with = closed;
-    for (const std::vector<int>& set : chosen) {
-      Vec3 mean = Vec3::Zero();
-      for (int v : set) mean += x[v] / static_cast<double>(set.size());
-      for (int v : set) {
-        tried[v] = mean;
-        with[v] = set.front();
+/// Sewn to itself elsewhere than at its pleats: a sleeve.
+bool is_tube(const FlatPanel& panel, const std::vector<Pleat>& pleats) {
+  double deepest = 0;
+  for (const Pleat& pleat : pleats) deepest = std::max(deepest, pleat.depth);
+  return std::any_of(panel.own.begin(), panel.own.end(), [&](const SeamPair& pair) {
+    return (panel.cloth.x[pair.a] - panel.cloth.x[pair.b]).norm() > kAcross * deepest;
+  });
+}
+
+/// As `laid`, in the first of the ways of folding that does. A tube goes on round what is in it: its pleats taper.
+std::optional<Positions> folded_panel(const FlatPanel& panel, const std::vector<Pleat>& found) {
+  Positions places;
+  for (int v : panel.vertices) places.push_back(panel.cloth.x[v]);
+  std::vector<Direction> directions{Direction::own, Direction::pleat, Direction::panel};
+  if (is_tube(panel, found)) directions.insert(directions.begin(), Direction::tapered);
+  for (const bool close : {true, false})
+    for (const Direction direction : directions) {
+      std::vector<Pleat> pleats = directed(found, direction, panel.normal, places, panel.edge_length);
+      if (!in_order(pleats, places)) continue;
+      for (const bool boxes : {false, true}) {
+        const std::vector<int> ways = ways_of(pleats, boxes);
+        if (boxes && std::count(ways.begin(), ways.end(), -1) == 0) continue;
+        for (std::size_t i = 0; i < pleats.size(); ++i)
+          if (ways[i] < 0) pleats[i].first.at += 0.5 * kBoxGap * panel.edge_length * pleats[i].first.beyond;
+        if (std::optional<Positions> x = laid(panel, pleats, ways, close)) return x;
       }
     }
-    if (crosses(tried, triangles, with)) return false;
-    x = std::move(tried);
-    closed = std::move(with);
-    return true;
-  };
-  // One set may stand in the way of another until it is closed itself.
-  for (std::size_t before = sets.size() + 1; !sets.empty() && sets.size() < before;) {
-    before = sets.size();
-    if (close(sets)) return;
-    std::erase_if(sets, [&](const std::vector<int>& set) { return close({set}); });
+  return std::nullopt;
+}
+
+/// Narrower now, the panel goes in its plane to where its seams are to be, or else it may hide its neighbour's edge.
+/// Without seams to others its middle stays.
+Vec3 shift_to_seams(const FlatPanel& panel, const std::vector<int>& panel_of_vertex, const Positions& x) {
+  Vec3 shift = Vec3::Zero();
+  int joints = 0;
+  const int own = panel_of_vertex[panel.vertices.front()];
+  for (const SeamPair& pair : panel.cloth.seam_pairs)
+    for (const auto& [own_end, other_end] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)})
+      if (panel_of_vertex[own_end] == own && panel_of_vertex[other_end] != own) {
+        shift += x[other_end] - x[own_end];
+        ++joints;
+      }
+  if (joints == 0) {
+    for (int v : panel.vertices) shift += panel.cloth.x[v] - x[v];
+    joints = static_cast<int>(panel.vertices.size());
   }
+  shift /= joints;
+  return shift - panel.normal * panel.normal.dot(shift);
+}
+
+std::vector<FlatPanel> panels_of(const Cloth& apart, const std::vector<int>& panel_of_vertex) {
+  std::vector<FlatPanel> panels;
+  for (const ClothPanel& panel : apart.panels) panels.push_back({apart, {}, {}, {}, Vec3::Zero(), panel.edge_length});
+  for (std::size_t t = 0; t < apart.triangles.size(); ++t) {
+    const Triangle& v = apart.triangles[t];
+    FlatPanel& panel = panels[apart.triangle_panel[t]];
+    panel.triangles.push_back(v);
+    panel.normal += (apart.x[v[1]] - apart.x[v[0]]).cross(apart.x[v[2]] - apart.x[v[0]]);
+  }
+  for (FlatPanel& panel : panels) panel.normal.normalize();
+  for (std::size_t v = 0; v < apart.x.size(); ++v)
+    if (panel_of_vertex[v] >= 0) panels[panel_of_vertex[v]].vertices.push_back(static_cast<int>(v));
+  for (const SeamPair& pair : apart.seam_pairs)
+    if (panel_of_vertex[pair.a] >= 0 && panel_of_vertex[pair.a] == panel_of_vertex[pair.b])
+      panels[panel_of_vertex[pair.a]].own.push_back(pair);
+  return panels;
 }
 
 }  // namespace
 
 void fold_pleats(Cloth& apart) {
-  std::vector<std::vector<Triangle>> triangles(apart.panels.size());
-  for (std::size_t t = 0; t < apart.triangles.size(); ++t)
-    triangles[apart.triangle_panel[t]].push_back(apart.triangles[t]);
   const std::vector<int> panel_of_vertex = panel_of_vertices(apart);
-  std::vector<std::vector<int>> vertices(apart.panels.size());
-  for (std::size_t v = 0; v < apart.x.size(); ++v)
-    if (panel_of_vertex[v] >= 0) vertices[panel_of_vertex[v]].push_back(static_cast<int>(v));
-  std::vector<std::vector<SeamPair>> own(apart.panels.size());
-  for (const SeamPair& pair : apart.seam_pairs)
-    if (panel_of_vertex[pair.a] >= 0 && panel_of_vertex[pair.a] == panel_of_vertex[pair.b])
-      own[panel_of_vertex[pair.a]].push_back(pair);
-
-  for (std::size_t p = 0; p < apart.panels.size(); ++p) {
-    if (own[p].empty()) continue;
-    Vec3 normal = Vec3::Zero();
-    for (const Triangle& t : triangles[p])
-      normal += (apart.x[t[1]] - apart.x[t[0]]).cross(apart.x[t[2]] - apart.x[t[0]]);
-    normal.normalize();
-    for (const std::vector<int>& loop : boundary_loops(triangles[p])) {
-      const std::vector<Fold> folds = folds_of(Outline(loop, apart.x), apart.x, own[p], apart.panels[p].edge_length);
-      const std::vector<Pleat> found = pleats_of(folds, normal);
-      if (found.empty() || std::any_of(found.begin(), found.end(), [&](const Pleat& pleat) {
-            return pleat.depth < kShallowest * apart.panels[p].edge_length;
+  for (const FlatPanel& panel : panels_of(apart, panel_of_vertex)) {
+    if (panel.own.empty()) continue;
+    for (const std::vector<int>& loop : boundary_loops(panel.triangles)) {
+      const std::vector<Pleat> pleats = find_pleats(loop, apart.x, panel.own, panel.normal, panel.edge_length);
+      if (pleats.empty() || std::any_of(pleats.begin(), pleats.end(), [&](const Pleat& pleat) {
+            return pleat.depth < kShallowest * panel.edge_length;
           }))
         continue;
-      Positions panel;
-      for (int v : vertices[p]) panel.push_back(apart.x[v]);
-      std::vector<Pleat> pleats;
-      bool ordered = false;
-      for (const Direction direction : {Direction::own, Direction::pleat, Direction::panel}) {
-        pleats = directed(found, direction);
-        ordered = in_order(pleats, panel);
-        if (ordered) break;
-      }
-      if (!ordered) continue;
-      Positions x = apart.x;
-      for (int v : vertices[p])
-        x[v] =
-            folded(pleats, apart.x[v]) - normal * (kDrop * apart.panels[p].edge_length * layer_of(pleats, apart.x[v]));
-      if (!self_intersections(x, triangles[p]).empty()) continue;
-      close_sets(near_sets(own[p], x), triangles[p], x);
-      // Narrower now, the panel goes in its plane to where its seams are to be, or else it may hide its neighbour's
-      // edge.
-      Vec3 shift = Vec3::Zero();
-      int joints = 0;
-      for (const SeamPair& pair : apart.seam_pairs)
-        for (const auto& [own_end, other_end] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)})
-          if (panel_of_vertex[own_end] == static_cast<int>(p) && panel_of_vertex[other_end] != static_cast<int>(p)) {
-            shift += x[other_end] - x[own_end];
-            ++joints;
-          }
-      if (joints == 0) {
-        for (int v : vertices[p]) shift += apart.x[v] - x[v];
-        joints = static_cast<int>(vertices[p].size());
-      }
-      shift /= joints;
-      shift -= normal * normal.dot(shift);
-      for (int v : vertices[p]) x[v] += shift;
-      apart.x = std::move(x);
+      std::optional<Positions> x = folded_panel(panel, pleats);
+      if (!x) continue;
+      const Vec3 shift = shift_to_seams(panel, panel_of_vertex, *x);
+      for (int v : panel.vertices) (*x)[v] += shift;
+      apart.x = std::move(*x);
     }
   }
 }

@@ -99,9 +99,9 @@ Vec3 PositionBased::mean_of(const std::vector<int>& vertices, const Positions& x
   return sum / static_cast<double>(vertices.size());
 }
 
-const std::vector<double>& PositionBased::displacement_bounds(const Positions& x) {
+void PositionBased::limit_moves(const Positions& x, Positions& to) {
   proximity_.update(x);
-  return proximity_.displacement_bounds();
+  proximity_.limit_moves(x, to);
 }
 
 double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
@@ -179,7 +179,7 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
     const double length = move.norm();
     if (length > 2 * limit) x[v] = start[v] + move * (2 * limit / length);
   }
-  limit_displacements(start, proximity_.displacement_bounds(), x);
+  proximity_.limit_moves(start, x);
   for (int v = 0; v < n; ++v) {
     carried_[v] = x[v] - start[v];
     largest_move_ = std::max(largest_move_, carried_[v].norm());

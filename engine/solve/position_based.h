@@ -43,8 +43,8 @@ class PositionBased {
   /// threads. Returns the largest gap of the pulls after the step [m].
   double step(Positions& x, const PositionBasedOptions& options);
 
-  /// Bounds on movement around the current x, for moves made outside step().
-  const std::vector<double>& displacement_bounds(const Positions& x);
+  /// Shortens moves made outside step(), from x to `to`, such that nothing crosses on the way.
+  void limit_moves(const Positions& x, Positions& to);
 
   double largest_move() const { return largest_move_; }  ///< of any vertex in the last step [m]
   long contacts() const { return static_cast<long>(contacts_.size()); }

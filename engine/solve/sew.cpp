@@ -89,7 +89,7 @@ double meet(PositionBased& solver, Cloth& cloth) {
     Positions target = cloth.x;
     for (std::size_t v = 0; v < cloth.x.size(); ++v)
       if (count[root[v]] > 1) target[v] = sum[root[v]] / count[root[v]];
-    limit_displacements(cloth.x, solver.displacement_bounds(cloth.x), target);
+    solver.limit_moves(cloth.x, target);
     cloth.x = target;
   }
   return gap_before;
@@ -115,7 +115,7 @@ Sewn sew_in(AssemblyStage& stage, const Sewing& sewing, Cloth cloth, const Manne
     sewn.open = open_seams(cloth).size();
     if (sewn.open > 0) continue;
     sewn.gap = meet(solver, cloth);
-    sewn.crossings = untangle_seams(stage, sewing, cloth, mesh);
+    sewn.crossings = untangle_seams(stage, sewing, cloth);
     break;
   }
   if (sewn.open > 0) sewn.gap = seam_gap_max(cloth);

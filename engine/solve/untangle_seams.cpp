@@ -6,6 +6,7 @@
 #include "engine/solve/untangle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
@@ -15,25 +16,15 @@ namespace {
 
 constexpr int kRounds = 60;  // at most
 constexpr int kRoundsUntilLaidAnew = 10;
-constexpr int kLargestPatch = 6;  // edges around what crosses
-constexpr double kStep = 2e-3;    // [m] per round
-
-/// The collision mesh of a sewn cloth in which the zones of its seams, given for the apart one, still pass through
-/// each other.
-CollisionMesh with_zones(const Cloth& sewn, const std::vector<int>& old_to_new, const CollisionMesh& apart,
-                         double contact_distance) {
-  CollisionMesh mesh = make_collision_mesh(sewn, contact_distance);
-  std::vector<std::set<int>> zones(sewn.x.size());
-  for (std::size_t v = 0; v < old_to_new.size(); ++v)
-    if (old_to_new[v] >= 0) zones[old_to_new[v]].insert(apart.seam_zone[v].begin(), apart.seam_zone[v].end());
-  for (const std::set<int>& zone : zones) mesh.seam_zone.emplace_back(zone.begin(), zone.end());
-  return mesh;
-}
+constexpr int kLargestPatch = 6;           // edges around what crosses
+constexpr double kStep = 2e-3;             // [m] per round
+constexpr std::size_t kFewCrossings = 20;  // each vertex that is tried costs a search for crossings
 
 /// What still crosses is held in place by its own contacts: within two edges around it, features ignore each other.
 CollisionMesh loosened(CollisionMesh mesh, const std::vector<Triangle>& triangles,
                        const std::vector<TrianglePair>& crossings) {
-  std::vector<char> loose(mesh.distance.size(), 0);
+  mesh.seam_zone.resize(mesh.identity.size());
+  std::vector<char> loose(mesh.identity.size(), 0);
   for (const TrianglePair& pair : crossings)
     for (int t : {pair.a, pair.b})
       for (int v : triangles[t]) loose[v] = 1;
@@ -44,8 +35,7 @@ CollisionMesh loosened(CollisionMesh mesh, const std::vector<Triangle>& triangle
   }
   constexpr int kLoose = -1;  // a zone of its own, within panels, too
   for (std::size_t v = 0; v < loose.size(); ++v)
-    if (loose[v])
-      mesh.seam_zone[v].insert(std::lower_bound(mesh.seam_zone[v].begin(), mesh.seam_zone[v].end(), kLoose), kLoose);
+    if (loose[v]) mesh.seam_zone[v] = {kLoose};
   return mesh;
 }
 
@@ -68,6 +58,16 @@ std::vector<std::vector<int>> places(const std::vector<Triangle>& triangles,
   return lists;
 }
 
+/// Moves `vertices` of the sewn cloth out of the body, as far as the offset.
+void keep_clear(const Sewing& sewing, const std::vector<const BodyField*>& field, const std::vector<int>& vertices,
+                Positions& x) {
+  for (int v : vertices) {
+    if (!field[v]) continue;
+    const BodyField::Sample s = field[v]->sample(x[v]);
+    if (s.distance < sewing.offset) x[v] += s.normal * (sewing.offset - s.distance);
+  }
+}
+
 /// A seam end that was turned over as a whole has no contour to shrink: what lies around each place that crosses is
 /// laid anew, and kept where fewer triangles cross then.
 void lay_anew(const Sewing& sewing, const std::vector<const BodyField*>& field, const std::vector<double>& mobility,
@@ -77,11 +77,7 @@ void lay_anew(const Sewing& sewing, const std::vector<const BodyField*>& field, 
     std::erase_if(patch, [&](int v) { return mobility[v] == 0; });
     Positions laid = sewn.x;
     if (!fair(laid, sewn.triangles, patch)) continue;
-    for (int v : patch) {
-      if (!field[v]) continue;
-      const BodyField::Sample s = field[v]->sample(laid[v]);
-      if (s.distance < sewing.offset) laid[v] += s.normal * (sewing.offset - s.distance);
-    }
+    keep_clear(sewing, field, patch, laid);
     std::vector<TrianglePair> after = self_intersections(laid, sewn.triangles);
     if (after.size() >= crossings.size()) continue;
     sewn.x = std::move(laid);
@@ -89,9 +85,41 @@ void lay_anew(const Sewing& sewing, const std::vector<const BodyField*>& field, 
   }
 }
 
+/// A single corner that is on the wrong side, as happens where a seam is crooked: each vertex of each crossing pair in
+/// turn is put on the other side of the other triangle, and stays there if fewer triangles cross then.
+void put_through(const Sewing& sewing, const std::vector<const BodyField*>& field, const std::vector<double>& mobility,
+                 std::vector<TrianglePair>& crossings, Cloth& sewn) {
+  const auto put = [&](int v, const Triangle& other, double beyond) {
+    const Vec3 normal = (sewn.x[other[1]] - sewn.x[other[0]]).cross(sewn.x[other[2]] - sewn.x[other[0]]).normalized();
+    const double height = normal.dot(sewn.x[v] - sewn.x[other[0]]);
+    Positions moved = sewn.x;
+    moved[v] -= (height + std::copysign(beyond, height)) * normal;
+    keep_clear(sewing, field, {v}, moved);
+    std::vector<TrianglePair> after = self_intersections(moved, sewn.triangles);
+    if (after.size() >= crossings.size()) return false;
+    sewn.x = std::move(moved);
+    crossings = std::move(after);
+    return true;
+  };
+  const auto put_any = [&] {
+    for (const TrianglePair& pair : crossings)
+      for (const auto& [own, other] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)})
+        for (const int v : sewn.triangles[own]) {
+          const Triangle& triangle = sewn.triangles[other];
+          if (mobility[v] == 0 || std::count(triangle.begin(), triangle.end(), v) > 0) continue;
+          const double edge = sewn.panels[sewn.triangle_panel[own]].edge_length;
+          for (const double beyond : {0.05, 0.15, 0.4})
+            if (put(v, triangle, beyond * edge)) return true;
+        }
+    return false;
+  };
+  while (!crossings.empty() && crossings.size() <= kFewCrossings && put_any()) {
+  }
+}
+
 }  // namespace
 
-std::size_t untangle_seams(AssemblyStage& stage, const Sewing& sewing, Cloth& cloth, const CollisionMesh& zones) {
+std::size_t untangle_seams(AssemblyStage& stage, const Sewing& sewing, Cloth& cloth) {
   Cloth sewn = cloth;
   const std::vector<int> old_to_new = merge_seams(sewn);
   std::vector<const BodyField*> field(sewn.x.size(), sewing.fields.whole);
@@ -104,14 +132,13 @@ std::size_t untangle_seams(AssemblyStage& stage, const Sewing& sewing, Cloth& cl
     keep[w] |= sewing.keep[v];
     if (sewing.held[v]) mobility[w] = 0;
   }
-  const CollisionMesh mesh = with_zones(sewn, old_to_new, zones, sewing.scene.solver.contact_distance);
+  const CollisionMesh mesh = make_collision_mesh(sewn, sewing.scene.solver.contact_distance);
   std::optional<PositionBased> solver;
-  const auto start_with = [&](const CollisionMesh& with) {
-    solver.emplace(sewn, with, field);
+  const auto start_around = [&](const std::vector<TrianglePair>& crossings) {
+    solver.emplace(sewn, loosened(mesh, sewn.triangles, crossings), field);
     solver->keep_height = keep;
     solver->mobility = mobility;
   };
-  start_with(mesh);
   PositionBasedOptions options;
   options.body_offset = sewing.offset;
   options.carry = 0.5;
@@ -127,17 +154,19 @@ std::size_t untangle_seams(AssemblyStage& stage, const Sewing& sewing, Cloth& cl
     std::vector<TrianglePair> crossings = self_intersections(sewn.x, sewn.triangles);
     keep_better(crossings.size());
     if (crossings.empty() || s >= kRounds) break;
-    if (s > 0 && s % kRoundsUntilLaidAnew == 0) {
-      lay_anew(sewing, field, mobility, std::min(1 + s / kRoundsUntilLaidAnew, kLargestPatch), crossings, sewn);
+    if (s % kRoundsUntilLaidAnew == 0) {
+      for (int edges = 1; edges <= kLargestPatch && !crossings.empty(); ++edges)
+        lay_anew(sewing, field, mobility, edges, crossings, sewn);
+      put_through(sewing, field, mobility, crossings, sewn);
       keep_better(crossings.size());
       if (crossings.empty()) break;
-      start_with(loosened(mesh, sewn.triangles, crossings));
+      start_around(crossings);
     }
     const Positions moves = untangling_moves(sewn.x, sewn.triangles, crossings, kStep);
     Positions moved = sewn.x;
     for (std::size_t v = 0; v < sewn.x.size(); ++v)
       if (mobility[v] > 0) moved[v] += moves[v];
-    limit_displacements(sewn.x, solver->displacement_bounds(sewn.x), moved);
+    solver->limit_moves(sewn.x, moved);
     sewn.x = moved;
     for (int k = 0; k < 3; ++k) stage.step(*solver, sewn.x, options, 0.9);
   }

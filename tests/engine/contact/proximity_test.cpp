@@ -99,6 +99,48 @@ TEST(Proximity, LimitedMovesNeverCross) {
   EXPECT_GT(limited, 1000);
 }
 
+TEST(Proximity, MovesShortenedByPlanesNeverCross) {
+  Cloth cloth;
+  add_sheet(cloth, 8, 8, 0.015, 0);
+  add_sheet(cloth, 8, 8, 0.015, 0.003, 0.005);
+  add_sheet(cloth, 8, 8, 0.015, 0.006, 0.002);
+  Proximity proximity(make_collision_mesh(cloth, 0), 0.008);
+  Positions x = cloth.x;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> move(-0.01, 0.01);
+  long shortened = 0;
+  for (int round = 0; round < 60; ++round) {
+    proximity.update(x);
+    Positions wanted = x;
+    for (Vec3& p : wanted) p += Vec3(move(random), move(random), move(random));
+    shortened += proximity.limit_moves(x, wanted);
+    x = wanted;
+    ASSERT_EQ(crossings(proximity.mesh(), x), 0) << "round " << round;
+    ASSERT_GT(proximity.smallest_distance(), 0);
+  }
+  EXPECT_GT(shortened, 1000);
+}
+
+TEST(Proximity, PressedLayersStillSlideAndPart) {
+  Cloth cloth;
+  add_sheet(cloth, 4, 4, 0.015, 0);
+  add_sheet(cloth, 4, 4, 0.015, 1e-7, 0.004);
+  Proximity proximity(make_collision_mesh(cloth, 0), 0.008);
+  proximity.update(cloth.x);
+  Positions to = cloth.x;
+  for (std::size_t v = 16; v < to.size(); ++v) to[v] += Vec3(2e-4, 0, 1e-4);
+  Positions slid = to, parted = cloth.x, pressed = cloth.x;
+  EXPECT_EQ(proximity.limit_moves(cloth.x, slid), 0);
+  for (std::size_t v = 16; v < to.size(); ++v) {
+    parted[v].y() += 1e-3;
+    pressed[v].y() -= 1e-3;
+  }
+  EXPECT_EQ(proximity.limit_moves(cloth.x, parted), 0);
+  EXPECT_EQ(proximity.limit_moves(cloth.x, pressed), 16);
+  for (std::size_t v = 16; v < to.size(); ++v) EXPECT_GT(pressed[v].y(), 0);
+  EXPECT_GT(limit_displacements(cloth.x, proximity.displacement_bounds(), to), 0);  // the bounds forbid it
+}
+
 TEST(Proximity, KeepsKeysFromStepToStep) {
   Cloth cloth;
   add_sheet(cloth, 6, 6, 0.015, 0);

@@ -41,6 +41,19 @@ TEST(MergeSeams, JoinedVerticesMeetInTheirMeanAndKeepTheirFlatPositions) {
   EXPECT_TRUE(cloth.warnings.empty());
 }
 
+TEST(MergeSeams, OfSeamsThatAreOpenTheClosedPairsCanBeMergedAlone) {
+  Cloth cloth = strip(4);
+  cloth.x[8] = cloth.x[0];
+  cloth.seam_pairs = {{0, 8, 0}, {1, 9, 0}};
+  const std::vector<int> renumbered = merge_closed_seams(cloth, 1e-9);
+  EXPECT_EQ(cloth.x.size(), 9u);
+  EXPECT_EQ(renumbered[0], renumbered[8]);
+  ASSERT_EQ(cloth.seam_pairs.size(), 1u);
+  EXPECT_EQ(cloth.seam_pairs[0].a, renumbered[1]);
+  EXPECT_EQ(cloth.seam_pairs[0].b, renumbered[9]);
+  EXPECT_NE(renumbered[1], renumbered[9]);
+}
+
 TEST(MergeSeams, TriangleWhoseCornersBecomeOneIsDroppedWithAWarning) {
   Cloth cloth = strip(3);
   cloth.seam_pairs = {{0, 2, 0}};

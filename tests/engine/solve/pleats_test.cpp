@@ -53,6 +53,50 @@ TEST(Pleats, KnifePleatLiesInThreeLayersClosedAtTheSeam) { expect_folded_and_clo
 
 TEST(Pleats, SeveralPleatsInARow) { expect_folded_and_closed({6, 9, 16, 19, 28, 31}, 3); }
 
+/// A box pleat's folds at columns 12, 16, 24 and 28, whose outer two are also tacked `rows` (even) below the seam.
+Cloth box_pleat(int rows) {
+  Cloth sheet = stitched_sheet({12, 16, 24, 28}, 4);
+  const std::vector<int> row = top_row(sheet);
+  const Vec3 below(0, 0, -rows * kEdge * std::sqrt(3.0) / 2);
+  const auto vertex_at = [&](const Vec3& p) {
+    for (std::size_t v = 0; v < sheet.x.size(); ++v)
+      if ((sheet.x[v] - p).norm() < 1e-9) return static_cast<int>(v);
+    return -1;
+  };
+  sheet.seam_pairs.push_back({vertex_at(sheet.x[row[12]] + below), vertex_at(sheet.x[row[28]] + below), 0});
+  return sheet;
+}
+
+TEST(Pleats, TackedBoxPleatIsTakenForOneAndNotForTwoKnifePleats) {
+  Cloth sheet = box_pleat(2);
+  fold_pleats(sheet);
+  EXPECT_LT(seam_gap_max(sheet), 1e-9);
+  const std::vector<int> row = top_row(equilateral_sheet(40, 20, kEdge, suiting()));
+  const double first = sheet.x[row[2]].y(), last = sheet.x[row[38]].y(), beneath = sheet.x[row[20]].y();
+  EXPECT_NEAR(first, last, 0.02 * kEdge);  // the layers come up again
+  EXPECT_GT(std::abs(beneath - first), 0.05 * kEdge);
+  merge_seams(sheet);
+  EXPECT_TRUE(self_intersections(sheet.x, sheet.triangles).empty());
+}
+
+TEST(Pleats, PleatsOfATubeEndAtItsOtherSide) {
+  Cloth sleeve = stitched_sheet({16, 20}, 4);
+  int corner = -1, opposite = -1;
+  for (std::size_t v = 0; v < sleeve.x.size(); ++v)
+    if (sleeve.x[v].z() < 1e-9) {
+      if (corner < 0 || sleeve.x[v].x() < sleeve.x[corner].x()) corner = static_cast<int>(v);
+      if (opposite < 0 || sleeve.x[v].x() > sleeve.x[opposite].x()) opposite = static_cast<int>(v);
+    }
+  sleeve.seam_pairs.push_back({corner, opposite, 0});
+  const double width = (sleeve.x[opposite] - sleeve.x[corner]).norm();
+  fold_pleats(sleeve);
+  EXPECT_NEAR((sleeve.x[opposite] - sleeve.x[corner]).norm(), width, 2 * kEdge);  // and not 8 edges
+  sleeve.seam_pairs.pop_back();
+  EXPECT_LT(seam_gap_max(sleeve), 1e-9);
+  merge_seams(sleeve);
+  EXPECT_TRUE(self_intersections(sleeve.x, sleeve.triangles).empty());
+}
+
 TEST(Pleats, FoldingDoesNotStretch) {
   Cloth sheet = stitched_sheet({16, 20}, 4);
   const Positions flat = sheet.x;
