@@ -15,6 +15,7 @@ namespace toile {
 namespace {
 
 constexpr int kRidingSteps = 4000;     // at most, of a waistband up the body: the finer the mesh, the slower
+constexpr int kSettlingSteps = 800;    // at most, of a garment that nothing attaches: weight decides where it goes
 constexpr int kRidingStretch = 100;    // steps over which it is watched: it jitters more than it moves in one
 constexpr double kRidingStill = 1e-3;  // [m] over that many
 constexpr int kFallingSteps = 400;     // a skirt sewn through raised arms falls below them
@@ -68,7 +69,8 @@ void ride_up(AssemblyStage& stage, Cloth& cloth, const std::vector<const BodyFie
   options.body_offset = offset;
   options.carry = 0.95;
   const bool bands = std::any_of(keep.begin(), keep.end(), [](char k) { return k != 0; });  // they hold the rest
-  for (int s = 0; s < kRidingSteps; s += kRidingStretch) {
+  const int most = bands ? kRidingSteps : kSettlingSteps;
+  for (int s = 0; s < most; s += kRidingStretch) {
     const Positions before = cloth.x;
     for (int k = 0; k < kRidingStretch; ++k) stage.step(solver, cloth.x, options, 0.9);
     double farthest = 0;

@@ -51,7 +51,7 @@ class Touching {
 
   /// Cuts short the moves since detect() that could have crossed cloth; returns their number.
   long limit(const Positions& from, Positions& to) const {
-    return limit_displacements(from, proximity_.displacement_bounds(), to);
+    return proximity_.limit_moves(from, to);
   }
 
   void remember(const std::vector<Contact>& contacts, const Positions& x) { memory_.store(contacts, x); }
