@@ -48,6 +48,17 @@ int fabric_of(const Garment& garment, const std::string& panel_name, const Fabri
   return static_cast<int>(cloth.fabrics.size()) - 1;
 }
 
+double grain_of(const Garment& garment, const std::string& panel_name) {
+  const auto chosen = garment.panel_grain.find(panel_name);
+  return chosen != garment.panel_grain.end() ? chosen->second : garment.grain;
+}
+
+void turn_to_grain(double grain, std::array<Vec2, 3>& flat) {
+  if (grain == 0) return;
+  const Eigen::Rotation2Dd turn(-grain);
+  for (Vec2& corner : flat) corner = turn * corner;
+}
+
 Cloth build_cloth(const Scene& scene) {
   Cloth cloth;
   for (std::size_t g = 0; g < scene.garments.size(); ++g) {

@@ -35,7 +35,8 @@ struct LabelledVertices {
 struct Cloth {
   Positions x;                            ///< [m]
   std::vector<Triangle> triangles;        ///< outward (right side of the fabric) counter-clockwise
-  std::vector<std::array<Vec2, 3>> flat;  ///< rest corners [m] as drawn: u weft, v warp; signed area may be < 0
+  std::vector<std::array<Vec2, 3>> flat;  ///< rest corners [m], drawn and turned by the grain: u weft, v warp;
+                                          ///< signed area may be < 0
   std::vector<int> triangle_panel;        ///< index into panels
   std::vector<int> vertex_garment;        ///< index into Scene::garments
   std::vector<ClothPanel> panels;

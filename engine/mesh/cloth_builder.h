@@ -15,4 +15,10 @@ void add_garment_mesh(const Garment& garment, const GarmentMesh& shape, int garm
 /// Index into cloth.fabrics of a panel's fabric; adds it at first use.
 int fabric_of(const Garment& garment, const std::string& panel_name, const Fabric* panel_fabric, Cloth& cloth);
 
+/// Where a panel's warp runs [rad], counter-clockwise from +y of the drawing.
+double grain_of(const Garment& garment, const std::string& panel_name);
+
+/// Turns drawn corners so that the warp runs along +v. A grain of 0 leaves every bit as it is.
+void turn_to_grain(double grain, std::array<Vec2, 3>& flat);
+
 }  // namespace toile

@@ -106,6 +106,13 @@ void check_fabric(const Fabric& fabric, const std::string& pointer, std::vector<
   require(within(fabric.poisson_stiffness, 0, 1e9) &&
               fabric.poisson_stiffness * fabric.poisson_stiffness < stretch.warp * stretch.weft,
           "The coupling of warp and weft must be less than the root of the product of their stiffnesses.");
+  const auto rest_is = [](const StressCurve& curve, double modulus) {
+    return curve.empty() ||
+           (curve.least_tangent() > 0 && std::abs(curve.initial_tangent() - modulus) <= 1e-9 * modulus);
+  };
+  require(rest_is(fabric.warp_stress, stretch.warp) && rest_is(fabric.weft_stress, stretch.weft) &&
+              rest_is(fabric.shear_stress, 2 * stretch.bias),
+          "A stress curve must rise, and the stretch stiffness be its tangent at rest.");
   require(within(bending.warp, 0, 10) && within(bending.weft, 0, 10) && within(bending.bias, 0, 10),
           "The bending stiffnesses must not be negative.");
   require(within(fabric.thickness, 0, 0.1), "The thickness must be 0 to 100 mm.");

@@ -27,7 +27,10 @@ struct Garment {
   std::variant<Pattern, GarmentMesh> shape;
   Fabric fabric;
   std::map<std::string, Fabric> panel_fabrics;  ///< by panel (group) name, instead of `fabric`
-  double edge_length = 0.015;                   ///< target [m]; a mesh garment keeps its own
+  /// Where the warp runs in the flat pattern: counter-clockwise from +y (+v of a mesh), as the pattern is drawn [rad].
+  double grain = 0;
+  std::map<std::string, double> panel_grain;  ///< by panel (group) name, instead of `grain` [rad]
+  double edge_length = 0.015;                 ///< target [m]; a mesh garment keeps its own
   std::vector<Pin> pins;
 };
 

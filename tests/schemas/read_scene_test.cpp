@@ -90,6 +90,27 @@ TEST(ReadScene, FabricsByNameInlineAndByPanel) {
   EXPECT_EQ(std::get<Pattern>(garment.shape).panels[0].fabric->name, fabric.name);
 }
 
+TEST(ReadScene, ReadingsOfAStretchTestBecomeStressCurves) {
+  const Fabric fabric = garment_from(R"({"disc": {"radius_mm": 150}, "fabric": {
+      "base": "poplin", "poisson_ratio": 0, "stretch_curve": {
+        "warp": [{"strain_percent": 10, "force_N_m": 22}, {"strain_percent": 20, "force_N_m": 60}]}}})")
+                            .fabric;
+  ASSERT_EQ(fabric.warp_stress.knots.size(), 3u);
+  EXPECT_NEAR(fabric.warp_stress.at(0.105).stress, 20, 1e-12) << "Green strain and second Piola-Kirchhoff stress";
+  EXPECT_DOUBLE_EQ(fabric.stretch_stiffness.warp, fabric.warp_stress.initial_tangent());
+  EXPECT_TRUE(fabric.weft_stress.empty());
+  EXPECT_DOUBLE_EQ(fabric.stretch_stiffness.weft, read_fabric("poplin").stretch_stiffness.weft);
+  EXPECT_TRUE(read_fabric("poplin").warp_stress.empty());
+}
+
+TEST(ReadScene, GrainInDegreesForGarmentAndPanels) {
+  const Garment garment =
+      garment_from(R"({"disc": {"radius_mm": 150}, "grain_deg": 45, "panel_grain_deg": {"disc": -90}})");
+  EXPECT_DOUBLE_EQ(garment.grain, M_PI / 4);
+  EXPECT_DOUBLE_EQ(garment.panel_grain.at("disc"), -M_PI / 2);
+  EXPECT_EQ(garment_from(R"({"disc": {"radius_mm": 150}})").grain, 0);
+}
+
 TEST(ReadScene, Pins) {
   const Garment garment = garment_from(R"({"rectangle": {"width_mm": 400, "height_mm": 300}, "pins": [
       {"vertices": [0, 5]},
