@@ -24,8 +24,8 @@ TriangleMesh read_mesh(const nlohmann::json& source, const std::string& pointer,
 Garment read_garment(const nlohmann::json& document, const std::string& pointer, const Resolver& resolve, bool on_body,
                      std::vector<std::string>& warnings);
 
-/// One valid body; `friction` where it gives none.
-Body read_body(const nlohmann::json& document, const std::string& pointer, const Resolver& resolve, double friction);
+/// One valid body.
+Body read_body(const nlohmann::json& document, const std::string& pointer, const Resolver& resolve);
 
 /// The pins that a garment's `attach` asks for.
 std::vector<Pin> attached_pins(const nlohmann::json& garment, const Pattern& pattern, const std::string& pointer,

@@ -98,6 +98,7 @@ std::vector<Problem> scene_problems(const Scene& scene) {
     problems.push_back(
         {"/garments", "too_many_vertices", "The garments need more than two million vertices at these edge lengths."});
   }
+  check_friction_pairs(scene, problems);
   if (scene.body) check_body(*scene.body, problems);
   check_solver(scene.solver, problems);
   return problems;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace toile {
 namespace {
@@ -122,9 +123,35 @@ void check_fabric(const Fabric& fabric, const std::string& pointer, std::vector<
           "The damping must not be negative.");
 }
 
+void check_friction_pairs(const Scene& scene, std::vector<Problem>& problems) {
+  std::set<std::string> names;
+  for (const Garment& garment : scene.garments) {
+    names.insert(garment.fabric.name);
+    for (const auto& [panel, fabric] : garment.panel_fabrics) names.insert(fabric.name);
+    if (const auto* pattern = std::get_if<Pattern>(&garment.shape))
+      for (const Panel& panel : pattern->panels)
+        if (panel.fabric) names.insert(panel.fabric->name);
+  }
+  for (std::size_t p = 0; p < scene.friction_pairs.size(); ++p) {
+    const FrictionPair& pair = scene.friction_pairs[p];
+    const std::string here = "/friction_pairs/" + std::to_string(p);
+    const auto known = [&](const std::string& name, const char* side) {
+      if (names.contains(name)) return;
+      problems.push_back(
+          {here + "/between/" + side, "unknown_fabric", "No garment is of a fabric named \"" + name + "\"."});
+    };
+    known(pair.fabric, "0");
+    if (!pair.other.empty()) known(pair.other, "1");
+    if (pair.other.empty() && !scene.body)
+      problems.push_back({here + "/between/1", "friction_without_body", "There is no body."});
+    if (!within(pair.coefficient, 0, 10))
+      problems.push_back({here + "/coefficient", "friction_value", "The coefficient of friction must be 0 to 10."});
+  }
+}
+
 void check_body(const Body& body, std::vector<Problem>& problems) {
   std::visit(BodyCheck{problems}, body.shape);
-  if (!within(body.friction, 0, 10)) {
+  if (body.friction && !within(*body.friction, 0, 10)) {
     problems.push_back({"/body/friction", "body_value", "The coefficient of friction must be 0 to 10."});
   }
 }

@@ -3,6 +3,7 @@
 
 #include "engine/scene/body.h"
 #include "engine/scene/fabric.h"
+#include "engine/scene/friction.h"
 #include "engine/scene/pattern.h"
 #include "engine/scene/pin.h"
 #include "engine/scene/solver_options.h"
@@ -41,6 +42,7 @@ enum class Fidelity { preview, standard, reference };
 struct Scene {
   std::vector<Garment> garments;
   std::optional<Body> body;
+  std::vector<FrictionPair> friction_pairs;
   Fidelity fidelity = Fidelity::standard;
   SolverOptions solver;
 };

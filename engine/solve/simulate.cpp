@@ -23,19 +23,19 @@ constexpr double kListRadius = 5e-3;          // [m] at least: lets fine meshes 
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+CollisionMesh mesh_of(const Cloth& cloth, const SimulationScene& scene) {
+  CollisionMesh mesh = make_collision_mesh(cloth, scene.options.contact_distance);
+  mesh.friction = friction_table(cloth.fabrics, scene.body_friction, scene.friction_pairs);
+  return mesh;
+}
+
 /// Finds what touches, and remembers friction from step to step.
 class Touching {
  public:
   Touching(const Cloth& cloth, const SimulationScene& scene)
-      : proximity_(make_collision_mesh(cloth, scene.options.contact_distance), kListRadius), body_(scene.body) {
-    double friction = 0;
-    for (const Fabric& fabric : cloth.fabrics) friction = std::max(friction, fabric.friction_body);
-    body_options_.friction = scene.body_friction >= 0 ? scene.body_friction : friction;
+      : proximity_(mesh_of(cloth, scene), kListRadius), body_(scene.body) {
     body_options_.offset = scene.options.body_offset;
-    if (body_options_.offset > 0) return;
-    for (const ClothPanel& panel : cloth.panels)
-      body_options_.offset =
-          std::max(body_options_.offset, default_body_offset(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
+    body_options_.friction = -1;
   }
 
   std::vector<Contact> detect(const Positions& x) {

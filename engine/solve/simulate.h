@@ -5,6 +5,7 @@
 #include "engine/geometry/body_field.h"
 #include "engine/mesh/cloth.h"
 #include "engine/report.h"
+#include "engine/scene/friction.h"
 #include "engine/scene/solver_options.h"
 #include "engine/solve/pin_motion.h"
 
@@ -45,8 +46,9 @@ struct Simulation {
 struct SimulationScene {
   SolverOptions options;
   const BodyField* body = nullptr;
-  double body_friction = 0;  ///< < 0: the fabric's own
+  double body_friction = 0;  ///< < 0: each fabric's own
   std::vector<HeldVertex> held;
+  std::vector<FrictionPair> friction_pairs;  ///< contact/friction_table.h
 };
 
 /// Advances cloth.x to rest. No NaN is ever written to it: a step that fails at the smallest time step ends the run

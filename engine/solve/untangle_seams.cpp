@@ -33,7 +33,7 @@ CollisionMesh with_zones(const Cloth& sewn, const std::vector<int>& old_to_new, 
 /// What still crosses is held in place by its own contacts: within two edges around it, features ignore each other.
 CollisionMesh loosened(CollisionMesh mesh, const std::vector<Triangle>& triangles,
                        const std::vector<TrianglePair>& crossings) {
-  std::vector<char> loose(mesh.distance.size(), 0);
+  std::vector<char> loose(mesh.fabric.size(), 0);
   for (const TrianglePair& pair : crossings)
     for (int t : {pair.a, pair.b})
       for (int v : triangles[t]) loose[v] = 1;

@@ -153,9 +153,17 @@ TEST(ReadScene, Bodies) {
   EXPECT_DOUBLE_EQ(form.bust, DressFormBody{}.bust);
 }
 
-TEST(ReadScene, FrictionOfTheBodyOrOfTheInnermostFabric) {
-  EXPECT_DOUBLE_EQ(body_from(R"({"plane": {}, "friction": 0.45})").friction, 0.45);
-  EXPECT_DOUBLE_EQ(body_from(R"({"plane": {}})").friction, read_fabric("poplin").friction_body);
+TEST(ReadScene, FrictionOfTheBodyOrOfEachFabricAndOfPairs) {
+  EXPECT_EQ(body_from(R"({"plane": {}, "friction": 0.45})").friction, 0.45);
+  EXPECT_EQ(body_from(R"({"plane": {}})").friction, std::nullopt);
+  const Scene scene = read(R"({"garments": [{"disc": {"radius_mm": 150}}], "body": {"plane": {}},
+      "friction_pairs": [{"between": ["poplin", "body"], "coefficient": 0.1},
+                         {"between": ["poplin", "poplin"], "coefficient": 0.7}]})")
+                          .scene;
+  ASSERT_EQ(scene.friction_pairs.size(), 2u);
+  EXPECT_EQ(scene.friction_pairs[0].other, "");
+  EXPECT_EQ(scene.friction_pairs[0].coefficient, 0.1);
+  EXPECT_EQ(scene.friction_pairs[1].other, "poplin");
 }
 
 TEST(ReadScene, MeshesHaveTheirUnitAndAxis) {
