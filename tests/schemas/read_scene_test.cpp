@@ -103,6 +103,46 @@ TEST(ReadScene, ReadingsOfAStretchTestBecomeStressCurves) {
   EXPECT_TRUE(read_fabric("poplin").warp_stress.empty());
 }
 
+/// An OBJ of one square whose sides are `size` and whose texture is `uv_size` wide.
+std::string square_obj(double size, double uv_size) {
+  std::string text;
+  for (const auto& [x, y] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)})
+    text += "v " + std::to_string(x * size) + " " + std::to_string(y * size) + " 0\\nvt " +
+            std::to_string(x * uv_size) + " " + std::to_string(y * uv_size) + "\\n";
+  return text + "f 1/1 2/2 3/3\\nf 1/1 3/3 4/4\\n";
+}
+
+TEST(ReadScene, TheSameGarmentInOtherUnitsIsTheSameScene) {
+  const auto mesh = [](const std::string& obj, const std::string& units) {
+    return std::get<GarmentMesh>(garment_from(R"({"mesh": {"inline": ")" + obj + "\"" + units + "}}").shape);
+  };
+  const GarmentMesh metres = mesh(square_obj(0.5, 0.5), "");
+  const GarmentMesh others = mesh(square_obj(500, 50), R"(, "unit_mm": 1, "uv_unit_mm": 10)");
+  ASSERT_EQ(metres.mesh.vertices.size(), others.mesh.vertices.size());
+  for (std::size_t v = 0; v < metres.mesh.vertices.size(); ++v)
+    EXPECT_LT((metres.mesh.vertices[v] - others.mesh.vertices[v]).norm(), 1e-15);
+  for (std::size_t t = 0; t < metres.mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_LT((metres.mesh.corner_uv[t][k] * metres.uv_unit - others.mesh.corner_uv[t][k] * others.uv_unit).norm(),
+                1e-15);
+
+  const auto panel = [](double size, const std::string& units) {
+    const std::string s = std::to_string(size);
+    return std::get<Pattern>(
+               garment_from(R"({"pattern": {"inline": {"pattern": {"panels": {"p": {"vertices": [[0, 0], [)" + s +
+                            ", 0], [" + s + ", " + s + "], [0, " + s + R"(]], "edges": [{"endpoints": [0, 1]},
+                            {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}],
+                            "rotation": [0, 0, 0], "translation": [)" +
+                            s + ", 0, 0]}}, \"stitches\": []}, " + R"("properties": {"units_in_meter": )" + units +
+                            R"(, "curvature_coords": "relative"}}}})")
+                   .shape)
+        .panels.at(0);
+  };
+  const Panel centimetres = panel(50, "100"), inches = panel(50 / 2.54, "39.37007874015748");
+  for (std::size_t v = 0; v < 4; ++v) EXPECT_LT((centimetres.vertices[v] - inches.vertices[v]).norm(), 1e-6);
+  EXPECT_LT((centimetres.translation - inches.translation).norm(), 1e-6);
+}
+
 TEST(ReadScene, GrainInDegreesForGarmentAndPanels) {
   const Garment garment =
       garment_from(R"({"disc": {"radius_mm": 150}, "grain_deg": 45, "panel_grain_deg": {"disc": -90}})");
