@@ -191,7 +191,8 @@ Drape drape(const Scene& scene, Monitor& monitor) {
     report.time.drape = seconds_since(started) - report.time.assemble;
     report.warnings.push_back("preview: positions only, no forces; not an equilibrium of the fabric");
   } else {
-    SimulationScene simulated{options_of(scene), bodies.fields().whole, scene.body ? scene.body->friction.value_or(-1) : 0.0,
+    SimulationScene simulated{options_of(scene), bodies.fields().whole,
+                              scene.body ? scene.body->friction.value_or(-1) : 0.0,
                               held_vertices(scene, result.cloth, assembly.attached), scene.friction_pairs};
     const Simulation simulation = simulate(result.cloth, simulated, [&](const SimulationState& state) {
       const bool relaxing = state.time < scene.solver.relaxation_time;
