@@ -119,6 +119,11 @@ void check_size(Cloth& cloth, const BodyField& body) {
   throw InputError(std::move(problems));
 }
 
+bool has_trims(const Scene& scene) {
+  return std::any_of(scene.garments.begin(), scene.garments.end(),
+                     [](const Garment& g) { return !g.elastics.empty() || !g.drawcords.empty(); });
+}
+
 void fill_simulation(const Simulation& simulation, const std::vector<HeldVertex>& held, Drape& drape) {
   Report& report = drape.report;
   report.stop_reason = simulation.stop_reason;
@@ -190,9 +195,11 @@ Drape drape(const Scene& scene, Monitor& monitor) {
     report.status = outcome.at_rest ? "converged" : "not_converged";
     report.time.drape = seconds_since(started) - report.time.assemble;
     report.warnings.push_back("preview: positions only, no forces; not an equilibrium of the fabric");
+    if (has_trims(scene)) report.warnings.push_back("preview: elastics and drawcords do not pull");
   } else {
     SimulationScene simulated{options_of(scene), bodies.fields().whole, scene.body ? scene.body->friction : 0.0,
-                              held_vertices(scene, result.cloth, assembly.attached)};
+                              held_vertices(scene, result.cloth, assembly.attached),
+                              make_trimmings(scene, result.cloth)};
     const Simulation simulation = simulate(result.cloth, simulated, [&](const SimulationState& state) {
       const bool relaxing = state.time < scene.solver.relaxation_time;
       return reporter({relaxing ? "relax" : "drape", state.time, state.kinetic_energy, state.contacts,

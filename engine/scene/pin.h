@@ -41,8 +41,10 @@ struct PinMoved {
 /// Held to the body's surface point that is nearest after assembly (a waistband, a strapless top).
 struct PinAttached {};
 
+using Selection = std::variant<PinVertices, PinEdge, PinLabel, PinBox, PinNearest>;
+
 struct Pin {
-  std::variant<PinVertices, PinEdge, PinLabel, PinBox, PinNearest> select;
+  Selection select;
   std::variant<PinFixed, PinMoved, PinAttached> hold;
 };
 

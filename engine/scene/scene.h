@@ -6,6 +6,7 @@
 #include "engine/scene/pattern.h"
 #include "engine/scene/pin.h"
 #include "engine/scene/solver_options.h"
+#include "engine/scene/trim.h"
 
 #include <map>
 #include <optional>
@@ -29,6 +30,8 @@ struct Garment {
   std::map<std::string, Fabric> panel_fabrics;  ///< by panel (group) name, instead of `fabric`
   double edge_length = 0.015;                   ///< target [m]; a mesh garment keeps its own
   std::vector<Pin> pins;
+  std::vector<Elastic> elastics;
+  std::vector<Drawcord> drawcords;
 };
 
 /// The rung on the ladder of speed against accuracy. `preview` stops after the position-based solver.

@@ -4,6 +4,7 @@
 #include "engine/parallel/reduce.h"
 #include "engine/solve/contact_system.h"
 #include "engine/solve/static_system.h"
+#include "engine/solve/tension_system.h"
 #include "engine/terms/air_drag.h"
 #include "engine/terms/contact.h"
 #include "engine/terms/gravity.h"
@@ -64,10 +65,11 @@ struct StepProblem {
 }  // namespace
 
 struct BackwardEuler::Implementation {
-  Implementation(const Cloth& cloth, const SolverOptions& solver_options)
+  Implementation(const Cloth& cloth, const SolverOptions& solver_options, const Trimmings& trimmings)
       : options(solver_options),
         system(cloth),
         matrix(system.make_matrix()),
+        tension(trimmings, system.place(), matrix),
         preconditioner(system.nodes()),
         mass_in_cloth_order(system.nodes()) {
     double squares = 0;
@@ -105,6 +107,7 @@ struct BackwardEuler::Implementation {
 
   Norms residual(const StepProblem& p, const Positions& x, const Positions& v) {
     system.forces(x, v, p.fabric_factor, force);
+    tension.add_forces(x, v, p.fabric_factor, force);
     contacts.add_forces(x, options.contact_stiffness, force);
     return finish_residual(p, v);
   }
@@ -114,6 +117,7 @@ struct BackwardEuler::Implementation {
     {
       Stopwatch watch(times.derivatives);
       system.forces_and_matrix(x, v, {p.h * p.h, p.h, p.fabric_factor}, force, matrix);
+      tension.add_forces_and_matrix(x, v, {p.h * p.h, p.h, p.fabric_factor}, force, matrix);
     }
     Stopwatch watch(times.assembly);
     contacts.add_forces_and_matrix(x, options.contact_stiffness, p.h * p.h, force, matrix);
@@ -128,6 +132,7 @@ struct BackwardEuler::Implementation {
       } else {
         Eigen::Matrix3f diagonal = Eigen::Map<const Eigen::Matrix3f>(matrix.values(i));
         if (contacts.coupled().size() > 0) diagonal += contacts.coupled().diagonal(i);
+        if (tension.wide()) diagonal += tension.wide()->diagonal(i);
         preconditioner.set(i, diagonal);
       }
     });
@@ -137,6 +142,7 @@ struct BackwardEuler::Implementation {
   SolverOptions options;
   StaticSystem system;
   BlockMatrix matrix;
+  TensionSystem tension;
   BlockJacobi preconditioner;
   std::vector<double> mass_in_cloth_order;
   double weight_norm = 0;  ///< root of the sum of squared nodal weights [N]
@@ -147,8 +153,8 @@ struct BackwardEuler::Implementation {
   NodeVector last_acceleration;  ///< (v − v₀)/h of the last accepted step [m/s²]; empty when there is none
 };
 
-BackwardEuler::BackwardEuler(const Cloth& sewn, const SolverOptions& options)
-    : implementation_(std::make_unique<Implementation>(sewn, options)) {}
+BackwardEuler::BackwardEuler(const Cloth& sewn, const SolverOptions& options, const Trimmings& trimmings)
+    : implementation_(std::make_unique<Implementation>(sewn, options, trimmings)) {}
 BackwardEuler::~BackwardEuler() = default;
 BackwardEuler::BackwardEuler(BackwardEuler&&) noexcept = default;
 BackwardEuler& BackwardEuler::operator=(BackwardEuler&&) noexcept = default;
@@ -188,7 +194,7 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
       Stopwatch watch(times.linear_solve);
       outcome.cg_iterations += s.conjugate_gradient
                                    .solve(s.matrix, s.contacts.coupled(), s.preconditioner, s.right_hand_side,
-                                          s.options.cg_tolerance, s.options.cg_iterations, s.delta_v)
+                                          s.options.cg_tolerance, s.options.cg_iterations, s.delta_v, s.tension.wide())
                                    .iterations;
     }
     Stopwatch watch(times.line_search);
@@ -241,6 +247,7 @@ Energies BackwardEuler::energies(const State& state, const std::vector<Contact>&
   Energies e;
   e.membrane = s.system.membrane_energy_sum(x);
   e.bending = s.system.bending_energy_sum(x);
+  e.tension = s.tension.energy(x);
   if (!contacts.empty()) {
     ContactSystem touching;
     touching.rebuild(contacts, s.system.place());
@@ -265,6 +272,7 @@ Positions BackwardEuler::static_forces(const Positions& positions, const std::ve
   const Positions x = permuted(positions, s.system.order()), v(x.size(), Vec3::Zero());
   Positions force;
   s.system.forces(x, v, 1, force);
+  s.tension.add_forces(x, v, 1, force);
   ContactSystem touching;
   touching.rebuild(contacts, s.system.place());
   touching.add_forces(x, s.options.contact_stiffness, force);

@@ -5,6 +5,7 @@
 #include "engine/contact/contact.h"
 #include "engine/mesh/cloth.h"
 #include "engine/scene/solver_options.h"
+#include "engine/solve/trimmings.h"
 
 #include <memory>
 
@@ -36,9 +37,9 @@ struct StepTimes {
   double line_search = 0;   ///< the residual at trial points
 };
 
-/// Energies by term [J].
+/// Energies by term [J]; tension: of elastics and drawcords.
 struct Energies {
-  double membrane = 0, bending = 0, gravity = 0, contact = 0, kinetic = 0;
+  double membrane = 0, bending = 0, tension = 0, gravity = 0, contact = 0, kinetic = 0;
 };
 
 /// Solves  M (v − v₀) = h F(x₀ + h v, v)  for v (the seed's equation 1); Newton's method as its equation 4, with the
@@ -47,9 +48,9 @@ struct Energies {
 /// time per object; results do not depend on the number of threads.
 class BackwardEuler {
  public:
-  /// Takes flat shapes, fabrics and topology of a sewn cloth; its positions are not read. Throws std::invalid_argument
-  /// for a triangle of no flat area.
-  BackwardEuler(const Cloth& sewn, const SolverOptions& options);
+  /// Takes flat shapes, fabrics and topology of a sewn cloth, and what is sewn onto it; its positions are not read.
+  /// Throws std::invalid_argument for a triangle of no flat area.
+  BackwardEuler(const Cloth& sewn, const SolverOptions& options, const Trimmings& trimmings = {});
   ~BackwardEuler();
   BackwardEuler(BackwardEuler&&) noexcept;
   BackwardEuler& operator=(BackwardEuler&&) noexcept;

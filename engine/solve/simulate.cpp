@@ -89,7 +89,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   const SolverOptions& options = scene.options;
   const std::size_t n = cloth.x.size();
   Simulation result;
-  BackwardEuler solver(cloth, options);
+  BackwardEuler solver(cloth, options, scene.trimmings);
   Touching touching(cloth, scene);
   TimeStep time_step(options);
   RestDetector rest(options);

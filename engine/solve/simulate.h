@@ -7,6 +7,7 @@
 #include "engine/report.h"
 #include "engine/scene/solver_options.h"
 #include "engine/solve/pin_motion.h"
+#include "engine/solve/trimmings.h"
 
 #include <functional>
 #include <string>
@@ -47,6 +48,7 @@ struct SimulationScene {
   const BodyField* body = nullptr;
   double body_friction = 0;  ///< < 0: the fabric's own
   std::vector<HeldVertex> held;
+  Trimmings trimmings;
 };
 
 /// Advances cloth.x to rest. No NaN is ever written to it: a step that fails at the smallest time step ends the run

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kShortest = 1e-6;  // [m]
 
-double strain_of(const Drawcord& c, const Positions& x) {
+double strain_of(const DrawcordStencil& c, const Positions& x) {
   double length = 0;
   for (const auto& s : c.segments) length += (x[s[1]] - x[s[0]]).norm();
   return std::max(0.0, length / c.rest_length - 1);
@@ -32,7 +32,7 @@ Mat3 segment_curvature(const std::array<int, 2>& segment, const Positions& x) {
   return (Mat3::Identity() - direction * direction.transpose()) / length;
 }
 
-DrawcordPull drawcord_pull(const Drawcord& c, const Positions& x, const Positions* v) {
+DrawcordPull drawcord_pull(const DrawcordStencil& c, const Positions& x, const Positions* v) {
   DrawcordPull p;
   p.strain = strain_of(c, x);
   if (!(p.strain > 0)) return p;
@@ -45,7 +45,7 @@ DrawcordPull drawcord_pull(const Drawcord& c, const Positions& x, const Position
   return p;
 }
 
-double drawcord_energy(const Drawcord& c, const Positions& x) {
+double drawcord_energy(const DrawcordStencil& c, const Positions& x) {
   const double strain = strain_of(c, x);
   return 0.5 * c.stiffness * c.rest_length * strain * strain;
 }

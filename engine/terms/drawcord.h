@@ -14,7 +14,7 @@ namespace toile {
 /// With d the segments' directions and g = ∂l/∂x, the Hessian is  (k/L) g gᵀ + Σ T/lₛ (I − d dᵀ): one vector over all
 /// nodes, kept factored (linear/rank_one_matrix.h), and blocks within segments. It is exact: a lagged tension would be
 /// an explicit spring of stiffness k/L and unstable at h² k/L > m. Positive semi-definite everywhere.
-struct Drawcord {
+struct DrawcordStencil {
   std::vector<std::array<int, 2>> segments;  ///< the edges, in any order; a closed cord counts its last one, too
   double rest_length;                        ///< L [m], positive
   double stiffness;                          ///< k [N] per strain
@@ -29,9 +29,9 @@ struct DrawcordPull {
   double rate_factor = 0;  ///< β k w/L: ∂²R/∂v² = rate_factor · g gᵀ [N·s/m]
 };
 /// v: null for a cord at rest.
-DrawcordPull drawcord_pull(const Drawcord& c, const Positions& x, const Positions* v);
+DrawcordPull drawcord_pull(const DrawcordStencil& c, const Positions& x, const Positions* v);
 
-double drawcord_energy(const Drawcord& c, const Positions& x);  ///< [J]
+double drawcord_energy(const DrawcordStencil& c, const Positions& x);  ///< [J]
 
 /// Unit vector along a segment; zero for one shorter than a micrometre, which has no direction to speak of.
 Vec3 segment_direction(const std::array<int, 2>& segment, const Positions& x);

@@ -20,11 +20,11 @@ StencilPoints<2> stretched_to(double ratio) {
 }
 
 /// Four nodes, three segments, and a fourth that closes the ring.
-Drawcord ring() { return {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}, 0.06, 400, 0.01}; }
+DrawcordStencil ring() { return {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}, 0.06, 400, 0.01}; }
 
 Positions listed(const StencilPoints<4>& x) { return {x.begin(), x.end()}; }
 
-StencilVector<4> length_gradient(const Drawcord& c, const StencilPoints<4>& x) {
+StencilVector<4> length_gradient(const DrawcordStencil& c, const StencilPoints<4>& x) {
   StencilVector<4> g = StencilVector<4>::Zero();
   for (const auto& s : c.segments) {
     const Vec3 d = segment_direction(s, listed(x));
@@ -34,7 +34,7 @@ StencilVector<4> length_gradient(const Drawcord& c, const StencilPoints<4>& x) {
   return g;
 }
 
-Potential<4> cord_potential(const Drawcord& c) {
+Potential<4> cord_potential(const DrawcordStencil& c) {
   return {[c](const auto& x) { return drawcord_energy(c, listed(x)); },
           [c](const auto& x) {
             return StencilVector<4>(drawcord_pull(c, listed(x), nullptr).tension * length_gradient(c, x));
@@ -124,7 +124,7 @@ TEST(Drawcord, SlackExertsNothing) {
 
 TEST(Drawcord, LengthMayBeSharedInAnyWay) {
   // What one segment gives up another takes: the energy knows the sum alone.
-  Drawcord line{{{0, 1}, {1, 2}, {2, 3}}, 0.05, 400, 0};
+  DrawcordStencil line{{{0, 1}, {1, 2}, {2, 3}}, 0.05, 400, 0};
   const auto at = [](double a, double b) {
     return Positions{Vec3(0, 0, 0), Vec3(a, 0, 0), Vec3(b, 0, 0), Vec3(0.06, 0, 0)};
   };
@@ -133,7 +133,7 @@ TEST(Drawcord, LengthMayBeSharedInAnyWay) {
 }
 
 TEST(Drawcord, DissipationDerivatives) {
-  const Drawcord cord = ring();
+  const DrawcordStencil cord = ring();
   const StencilPoints<4> x = square(0.02);
   const auto pull = [&](const StencilPoints<4>& v) {
     const Positions speeds = listed(v);
