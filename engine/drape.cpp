@@ -119,6 +119,15 @@ void check_size(Cloth& cloth, const BodyField& body) {
   throw InputError(std::move(problems));
 }
 
+bool slides_on_body(const Scene& scene) {
+  return std::any_of(scene.garments.begin(), scene.garments.end(), [](const Garment& garment) {
+    return std::any_of(garment.pins.begin(), garment.pins.end(), [](const Pin& pin) {
+      const auto* attached = std::get_if<PinAttached>(&pin.hold);
+      return attached && attached->slides;
+    });
+  });
+}
+
 bool has_trims(const Scene& scene) {
   return std::any_of(scene.garments.begin(), scene.garments.end(),
                      [](const Garment& g) { return !g.elastics.empty() || !g.drawcords.empty(); });
@@ -162,6 +171,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
 
   stage("assemble", 0.02);
   const std::vector<std::string> found = apart.warnings;
+  const Cloth before = slides_on_body(scene) ? apart : Cloth{};
   Assembly assembly;
   try {
     assembly = assemble(scene, std::move(apart), bodies.fields(), [&](const AssemblyState& state) {
@@ -195,10 +205,16 @@ Drape drape(const Scene& scene, Monitor& monitor) {
     report.status = outcome.at_rest ? "converged" : "not_converged";
     report.time.drape = seconds_since(started) - report.time.assemble;
     report.warnings.push_back("preview: positions only, no forces; not an equilibrium of the fabric");
+    if (slides_on_body(scene)) report.warnings.push_back("preview: what slides along the body is held");
     if (has_trims(scene)) report.warnings.push_back("preview: elastics and drawcords do not pull");
   } else {
-    SimulationScene simulated{options_of(scene), bodies.fields().whole, scene.body ? scene.body->friction : 0.0,
-                              held_vertices(scene, result.cloth, assembly.attached),
+    std::vector<SlidingVertex> sliding;
+    if (!before.x.empty()) sliding = sliding_vertices(scene, before, result.cloth, assembly.old_to_new);
+    SimulationScene simulated{options_of(scene),
+                              bodies.fields().whole,
+                              scene.body ? scene.body->friction : 0.0,
+                              held_vertices(scene, result.cloth, assembly.attached, sliding),
+                              sliding,
                               make_trimmings(scene, result.cloth)};
     const Simulation simulation = simulate(result.cloth, simulated, [&](const SimulationState& state) {
       const bool relaxing = state.time < scene.solver.relaxation_time;

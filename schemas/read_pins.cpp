@@ -102,12 +102,19 @@ Selection read_selection(const json& pin, const Garment& garment, const std::str
 Pin read_pin(const json& document, const Garment& garment, const std::string& pointer, bool on_body) {
   Pin pin{read_selection(document, garment, pointer), PinFixed{}};
   const auto hold = document.find("hold");
+  const bool slides = hold != document.end() && *hold == "sliding";
+  if (document.contains("friction") && !slides) {
+    throw InputError(child(pointer, "friction"), "friction_of_nothing", "Only a pin whose hold is sliding rubs.");
+  }
   if (hold == document.end() || *hold == "fixed") return pin;
   if (hold->is_object()) {
     pin.hold = read_motion(*hold, child(pointer, "hold"));
   } else {
     if (!on_body) no_body(child(pointer, "hold"));
-    pin.hold = PinAttached{};
+    PinAttached attached;
+    attached.slides = slides;
+    if (document.contains("friction")) attached.friction = document["friction"].get<double>();
+    pin.hold = attached;
   }
   return pin;
 }

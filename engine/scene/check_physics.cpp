@@ -150,6 +150,10 @@ void check_pins(const Garment& garment, bool has_body, const std::string& pointe
     if (std::holds_alternative<PinAttached>(pin.hold) && !has_body) {
       problems.push_back({here, "attached_without_body", "There is no body to be attached to."});
     }
+    if (const auto* attached = std::get_if<PinAttached>(&pin.hold);
+        attached && attached->friction && !within(*attached->friction, 0, 10)) {
+      problems.push_back({here + "/friction", "pin_value", "The coefficient of friction must be 0 to 10."});
+    }
     const auto* moved = std::get_if<PinMoved>(&pin.hold);
     if (!moved) continue;
     double previous = -1;

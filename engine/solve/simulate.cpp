@@ -27,7 +27,9 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 class Touching {
  public:
   Touching(const Cloth& cloth, const SimulationScene& scene)
-      : proximity_(make_collision_mesh(cloth, scene.options.contact_distance), kListRadius), body_(scene.body) {
+      : proximity_(make_collision_mesh(cloth, scene.options.contact_distance), kListRadius),
+        body_(scene.body),
+        sliding_(scene.sliding) {
     double friction = 0;
     for (const Fabric& fabric : cloth.fabrics) friction = std::max(friction, fabric.friction_body);
     body_options_.friction = scene.body_friction >= 0 ? scene.body_friction : friction;
@@ -42,7 +44,8 @@ class Touching {
     proximity_.update(x);
     std::vector<Contact> contacts = proximity_.contacts();
     if (body_) {
-      const std::vector<Contact> more = body_contacts(proximity_.mesh(), *body_, x, body_options_);
+      std::vector<Contact> more = body_contacts(proximity_.mesh(), *body_, x, body_options_);
+      add_sliding_contacts(sliding_, *body_, x, body_options_.offset, more);
       contacts.insert(contacts.end(), more.begin(), more.end());
     }
     memory_.recall(contacts, x);
@@ -59,6 +62,7 @@ class Touching {
  private:
   Proximity proximity_;
   const BodyField* body_;
+  std::vector<SlidingVertex> sliding_;
   BodyContactOptions body_options_;
   FrictionMemory memory_;
 };

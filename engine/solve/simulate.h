@@ -48,6 +48,7 @@ struct SimulationScene {
   const BodyField* body = nullptr;
   double body_friction = 0;  ///< < 0: the fabric's own
   std::vector<HeldVertex> held;
+  std::vector<SlidingVertex> sliding;  ///< along the body; empty without one
   Trimmings trimmings;
 };
 
