@@ -9,6 +9,7 @@
 #include "engine/scene/check.h"
 #include "engine/scene/problem.h"
 #include "engine/solve/assemble.h"
+#include "engine/solve/place_trims.h"
 #include "engine/solve/preview.h"
 #include "engine/solve/simulate.h"
 
@@ -130,7 +131,7 @@ bool slides_on_body(const Scene& scene) {
 
 bool has_trims(const Scene& scene) {
   return std::any_of(scene.garments.begin(), scene.garments.end(),
-                     [](const Garment& g) { return !g.elastics.empty() || !g.drawcords.empty(); });
+                     [](const Garment& g) { return !g.elastics.empty() || !g.drawcords.empty() || !g.trims.empty(); });
 }
 
 void fill_simulation(const Simulation& simulation, const std::vector<HeldVertex>& held, Drape& drape) {
@@ -206,7 +207,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
     report.time.drape = seconds_since(started) - report.time.assemble;
     report.warnings.push_back("preview: positions only, no forces; not an equilibrium of the fabric");
     if (slides_on_body(scene)) report.warnings.push_back("preview: what slides along the body is held");
-    if (has_trims(scene)) report.warnings.push_back("preview: elastics and drawcords do not pull");
+    if (has_trims(scene)) report.warnings.push_back("preview: elastics and drawcords do not pull, trims are left out");
   } else {
     std::vector<SlidingVertex> sliding;
     if (!before.x.empty()) sliding = sliding_vertices(scene, before, result.cloth, assembly.old_to_new);
@@ -222,6 +223,8 @@ Drape drape(const Scene& scene, Monitor& monitor) {
                        kAssembled + (kDraped - kAssembled) * estimated_progress(state, scene.solver)});
     });
     fill_simulation(simulation, simulated.held, result);
+    result.trims = simulated.trimmings.trims;
+    for (std::size_t t = 0; t < result.trims.size(); ++t) result.trims[t].start = simulation.trims[t];
     report.time.drape = seconds_since(started) - report.time.assemble;
   }
   stage("measure", kDraped);
@@ -231,6 +234,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
   result.stretch_warp = stretch.warp;
   result.stretch_weft = stretch.weft;
   if (bodies.whole) result.body_mesh = bodies.whole->surface();
+  append_trims(scene, result.trims, result.body_mesh);
   report.time.total = seconds_since(started);
   return result;
 }

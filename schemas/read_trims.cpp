@@ -36,6 +36,21 @@ void read_trims(const json& document, const std::string& pointer, Garment& garme
     cord.damping = element.value("damping_s", cord.damping);
     garment.drawcords.push_back(std::move(cord));
   });
+  for_each_element(document, "trims", pointer, [&](const json& element, const std::string&) {
+    Trim trim;
+    const json& button = element.at("button");
+    trim.button.diameter = button.value("diameter_mm", trim.button.diameter * 1e3) * 1e-3;
+    trim.button.thickness = button.value("thickness_mm", trim.button.thickness * 1e3) * 1e-3;
+    trim.button.mass = button.value("mass_g", trim.button.mass * 1e3) * 1e-3;
+    for (const json& hole : element.at("attach")) {
+      const json& at = hole.at("at_mm");
+      trim.holes.push_back(
+          {hole.at("panel").get<std::string>(), Vec2(at[0].get<double>() * 1e-3, at[1].get<double>() * 1e-3)});
+    }
+    trim.stiffness = element.value("stiffness_N_m", trim.stiffness);
+    trim.damping = element.value("damping_s", trim.damping);
+    garment.trims.push_back(std::move(trim));
+  });
 }
 
 }  // namespace toile

@@ -24,7 +24,7 @@ void check_selection(const Selection& select, const Garment& garment, const std:
 
 void check_pins(const Garment& garment, bool has_body, const std::string& pointer, std::vector<Problem>& problems);
 
-/// Elastics and drawcords of a garment whose pointer is given.
+/// Elastics, drawcords and trims of a garment whose pointer is given.
 void check_trims(const Garment& garment, const std::string& pointer, std::vector<Problem>& problems);
 
 }  // namespace toile

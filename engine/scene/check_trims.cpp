@@ -1,6 +1,7 @@
 // The check of what is sewn onto a garment.
 #include "engine/scene/check_parts.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace toile {
@@ -15,6 +16,13 @@ void check_edges(const Selection& select, const Garment& garment, const std::str
     return;
   }
   check_selection(select, garment, pointer, problems);
+}
+
+bool has_panel(const Garment& garment, const std::string& name) {
+  if (const auto* pattern = std::get_if<Pattern>(&garment.shape))
+    return std::any_of(pattern->panels.begin(), pattern->panels.end(), [&](const Panel& p) { return p.name == name; });
+  const std::vector<std::string>& names = std::get<GarmentMesh>(garment.shape).mesh.group_names;
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 }  // namespace
@@ -39,6 +47,23 @@ void check_trims(const Garment& garment, const std::string& pointer, std::vector
     const std::string here = pointer + "/drawcords/" + std::to_string(k);
     check_band(cord.select, cord.stiffness, cord.damping, here);
     require(within(cord.length, 1e-3, 100), here + "/length_mm", "The length must be 1 mm to 100 m.");
+  }
+  for (std::size_t k = 0; k < garment.trims.size(); ++k) {
+    const Trim& trim = garment.trims[k];
+    const std::string here = pointer + "/trims/" + std::to_string(k);
+    require(within(trim.button.diameter, 1e-3, 0.2) && within(trim.button.thickness, 1e-4, 0.1) &&
+                within(trim.button.mass, 1e-6, 1),
+            here + "/button", "A button is 1 to 200 mm wide, 0.1 to 100 mm thick and weighs 0.001 to 1000 g.");
+    require(within(trim.stiffness, 1e-3, 1e7), here + "/stiffness_N_m", "The stiffness must be 0.001 to 1e7 N/m.");
+    require(within(trim.damping, 0, 1e3), here + "/damping_s", "The damping must not be negative.");
+    require(!trim.holes.empty(), here + "/attach", "A trim is attached somewhere.");
+    for (std::size_t h = 0; h < trim.holes.size(); ++h) {
+      const std::string place = here + "/attach/" + std::to_string(h);
+      if (!has_panel(garment, trim.holes[h].panel))
+        problems.push_back(
+            {place + "/panel", "unknown_panel", "The garment has no panel \"" + trim.holes[h].panel + "\"."});
+      require(trim.holes[h].at.allFinite(), place + "/at_mm", "The place is not finite.");
+    }
   }
 }
 

@@ -32,6 +32,7 @@ struct Garment {
   std::vector<Pin> pins;
   std::vector<Elastic> elastics;
   std::vector<Drawcord> drawcords;
+  std::vector<Trim> trims;
 };
 
 /// The rung on the ladder of speed against accuracy. `preview` stops after the position-based solver.

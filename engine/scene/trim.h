@@ -23,4 +23,25 @@ struct Drawcord {
   double damping = 2e-2;    ///< β [s]
 };
 
+/// A disc.
+struct Button {
+  double diameter = 11.5e-3, thickness = 2.5e-3;  ///< [m]
+  double mass = 0.4e-3;                           ///< [kg]
+};
+
+/// A place on a panel, where a button's thread goes through it.
+struct TrimHole {
+  std::string panel;       ///< name
+  Vec2 at = Vec2::Zero();  ///< in the panel's flat coordinates [m]
+};
+
+/// A button on the right side of the cloth at its first hole, and the layers that its thread holds beneath it, in that
+/// order. Each layer is held by four springs around the hole (terms/attachment.h).
+struct Trim {
+  Button button;
+  std::vector<TrimHole> holes;  ///< at least one
+  double stiffness = 1000;      ///< of the springs of one layer together [N/m]
+  double damping = 5e-3;        ///< β [s]
+};
+
 }  // namespace toile

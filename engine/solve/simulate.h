@@ -40,6 +40,7 @@ struct Simulation {
   std::vector<Contact> contacts;  ///< active at the end
   Positions net_force;            ///< on free vertices, contacts and friction included [N]; zero on held ones
   std::vector<double> mass;       ///< lumped [kg]
+  std::vector<RigidState> trims;  ///< at the end
   std::vector<double> contact_force;  ///< per vertex, sum of contact force magnitudes [N]
 };
 

@@ -3,6 +3,7 @@
 #include "engine/mesh/pattern_pointer.h"
 #include "engine/scene/problem.h"
 #include "engine/solve/edge_selection.h"
+#include "engine/solve/place_trims.h"
 
 namespace toile {
 namespace {
@@ -39,6 +40,7 @@ Trimmings make_trimmings(const Scene& scene, const Cloth& sewn) {
       }
     }
   }
+  place_trims(scene, sewn, trimmings);
   return trimmings;
 }
 

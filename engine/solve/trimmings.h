@@ -3,6 +3,8 @@
 
 #include "engine/mesh/cloth.h"
 #include "engine/scene/scene.h"
+#include "engine/solve/rigid_body.h"
+#include "engine/terms/attachment.h"
 #include "engine/terms/drawcord.h"
 #include "engine/terms/elastic.h"
 
@@ -10,12 +12,21 @@
 
 namespace toile {
 
+/// A trim of a scene where assembly puts it.
+struct RigidTrim {
+  RigidBody body;
+  RigidState start;
+};
+
 struct Trimmings {
   std::vector<ElasticStencil> elastics;
   std::vector<DrawcordStencil> drawcords;
+  std::vector<RigidTrim> trims;
+  std::vector<AttachmentStencil> attachments;
 };
 
-/// Throws InputError (`selects_no_edge`) where an elastic or a drawcord selects nothing of the sewn cloth.
+/// Throws InputError: `selects_no_edge` where an elastic or a drawcord selects nothing of the sewn cloth, those of
+/// place_trims.h.
 Trimmings make_trimmings(const Scene& scene, const Cloth& sewn);
 
 }  // namespace toile
