@@ -9,6 +9,7 @@
 #include "engine/scene/check.h"
 #include "engine/scene/problem.h"
 #include "engine/solve/assemble.h"
+#include "engine/solve/place_trims.h"
 #include "engine/solve/preview.h"
 #include "engine/solve/simulate.h"
 
@@ -119,6 +120,20 @@ void check_size(Cloth& cloth, const BodyField& body) {
   throw InputError(std::move(problems));
 }
 
+bool slides_on_body(const Scene& scene) {
+  return std::any_of(scene.garments.begin(), scene.garments.end(), [](const Garment& garment) {
+    return std::any_of(garment.pins.begin(), garment.pins.end(), [](const Pin& pin) {
+      const auto* attached = std::get_if<PinAttached>(&pin.hold);
+      return attached && attached->slides;
+    });
+  });
+}
+
+bool has_trims(const Scene& scene) {
+  return std::any_of(scene.garments.begin(), scene.garments.end(),
+                     [](const Garment& g) { return !g.elastics.empty() || !g.drawcords.empty() || !g.trims.empty(); });
+}
+
 void fill_simulation(const Simulation& simulation, const std::vector<HeldVertex>& held, Drape& drape) {
   Report& report = drape.report;
   report.stop_reason = simulation.stop_reason;
@@ -157,6 +172,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
 
   stage("assemble", 0.02);
   const std::vector<std::string> found = apart.warnings;
+  const Cloth before = slides_on_body(scene) ? apart : Cloth{};
   Assembly assembly;
   try {
     assembly = assemble(scene, std::move(apart), bodies.fields(), [&](const AssemblyState& state) {
@@ -190,16 +206,26 @@ Drape drape(const Scene& scene, Monitor& monitor) {
     report.status = outcome.at_rest ? "converged" : "not_converged";
     report.time.drape = seconds_since(started) - report.time.assemble;
     report.warnings.push_back("preview: positions only, no forces; not an equilibrium of the fabric");
+    if (slides_on_body(scene)) report.warnings.push_back("preview: what slides along the body is held");
+    if (has_trims(scene)) report.warnings.push_back("preview: elastics and drawcords do not pull, trims are left out");
   } else {
-    SimulationScene simulated{options_of(scene), bodies.fields().whole,
+    std::vector<SlidingVertex> sliding;
+    if (!before.x.empty()) sliding = sliding_vertices(scene, before, result.cloth, assembly.old_to_new);
+    SimulationScene simulated{options_of(scene),
+                              bodies.fields().whole,
                               scene.body ? scene.body->friction.value_or(-1) : 0.0,
-                              held_vertices(scene, result.cloth, assembly.attached), scene.friction_pairs};
+                              held_vertices(scene, result.cloth, assembly.attached, sliding),
+                              scene.friction_pairs,
+                              sliding,
+                              make_trimmings(scene, result.cloth)};
     const Simulation simulation = simulate(result.cloth, simulated, [&](const SimulationState& state) {
       const bool relaxing = state.time < scene.solver.relaxation_time;
       return reporter({relaxing ? "relax" : "drape", state.time, state.kinetic_energy, state.contacts,
                        kAssembled + (kDraped - kAssembled) * estimated_progress(state, scene.solver)});
     });
     fill_simulation(simulation, simulated.held, result);
+    result.trims = simulated.trimmings.trims;
+    for (std::size_t t = 0; t < result.trims.size(); ++t) result.trims[t].start = simulation.trims[t];
     report.time.drape = seconds_since(started) - report.time.assemble;
   }
   stage("measure", kDraped);
@@ -209,6 +235,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
   result.stretch_warp = stretch.warp;
   result.stretch_weft = stretch.weft;
   if (bodies.whole) result.body_mesh = bodies.whole->surface();
+  append_trims(scene, result.trims, result.body_mesh);
   report.time.total = seconds_since(started);
   return result;
 }

@@ -49,7 +49,7 @@ std::set<std::string> automatic_labels(const Pattern& pattern) {
   throw InputError(pointer, "attached_without_body", "There is no body to be attached to.");
 }
 
-decltype(Pin::select) read_edge(const json& edge, const Garment& garment, const std::string& pointer) {
+Selection read_edge(const json& edge, const Garment& garment, const std::string& pointer) {
   const auto name = edge.at("panel").get<std::string>();
   if (const auto* pattern = std::get_if<Pattern>(&garment.shape)) {
     for (std::size_t p = 0; p < pattern->panels.size(); ++p) {
@@ -62,23 +62,6 @@ decltype(Pin::select) read_edge(const json& edge, const Garment& garment, const 
     }
   }
   throw InputError(child(pointer, "panel"), "unknown_panel", "The garment has no panel \"" + name + "\".");
-}
-
-decltype(Pin::select) read_select(const json& pin, const Garment& garment, const std::string& pointer) {
-  if (pin.contains("vertices")) return PinVertices{pin["vertices"].get<std::vector<int>>()};
-  if (pin.contains("edge")) return read_edge(pin["edge"], garment, child(pointer, "edge"));
-  if (pin.contains("nearest_mm")) return PinNearest{read_millimetres(pin, "nearest_mm")};
-  if (pin.contains("box_mm")) {
-    const Vec3 min = read_millimetres(pin["box_mm"], "min"), max = read_millimetres(pin["box_mm"], "max");
-    if ((min.array() <= max.array()).all()) return PinBox{min, max};
-    throw InputError(child(pointer, "box_mm"), "empty_box", "min lies above max along an axis.");
-  }
-  const auto label = pin.at("label").get<std::string>();
-  const auto* pattern = std::get_if<Pattern>(&garment.shape);
-  if (!pattern || !edge_labels(*pattern).contains(label)) {
-    throw InputError(child(pointer, "label"), "unknown_label", "No edge of the garment is labelled \"" + label + "\".");
-  }
-  return PinLabel{label};
 }
 
 PinMoved read_motion(const json& hold, const std::string& pointer) {
@@ -99,15 +82,39 @@ PinMoved read_motion(const json& hold, const std::string& pointer) {
 
 }  // namespace
 
+Selection read_selection(const json& pin, const Garment& garment, const std::string& pointer) {
+  if (pin.contains("vertices")) return PinVertices{pin["vertices"].get<std::vector<int>>()};
+  if (pin.contains("edge")) return read_edge(pin["edge"], garment, child(pointer, "edge"));
+  if (pin.contains("nearest_mm")) return PinNearest{read_millimetres(pin, "nearest_mm")};
+  if (pin.contains("box_mm")) {
+    const Vec3 min = read_millimetres(pin["box_mm"], "min"), max = read_millimetres(pin["box_mm"], "max");
+    if ((min.array() <= max.array()).all()) return PinBox{min, max};
+    throw InputError(child(pointer, "box_mm"), "empty_box", "min lies above max along an axis.");
+  }
+  const auto label = pin.at("label").get<std::string>();
+  const auto* pattern = std::get_if<Pattern>(&garment.shape);
+  if (!pattern || !edge_labels(*pattern).contains(label)) {
+    throw InputError(child(pointer, "label"), "unknown_label", "No edge of the garment is labelled \"" + label + "\".");
+  }
+  return PinLabel{label};
+}
+
 Pin read_pin(const json& document, const Garment& garment, const std::string& pointer, bool on_body) {
-  Pin pin{read_select(document, garment, pointer), PinFixed{}};
+  Pin pin{read_selection(document, garment, pointer), PinFixed{}};
   const auto hold = document.find("hold");
+  const bool slides = hold != document.end() && *hold == "sliding";
+  if (document.contains("friction") && !slides) {
+    throw InputError(child(pointer, "friction"), "friction_of_nothing", "Only a pin whose hold is sliding rubs.");
+  }
   if (hold == document.end() || *hold == "fixed") return pin;
   if (hold->is_object()) {
     pin.hold = read_motion(*hold, child(pointer, "hold"));
   } else {
     if (!on_body) no_body(child(pointer, "hold"));
-    pin.hold = PinAttached{};
+    PinAttached attached;
+    attached.slides = slides;
+    if (document.contains("friction")) attached.friction = document["friction"].get<double>();
+    pin.hold = attached;
   }
   return pin;
 }

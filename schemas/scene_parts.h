@@ -31,6 +31,12 @@ Body read_body(const nlohmann::json& document, const std::string& pointer, const
 std::vector<Pin> attached_pins(const nlohmann::json& garment, const Pattern& pattern, const std::string& pointer,
                                bool on_body);
 
+/// What a valid pin, elastic or drawcord of a garment selects.
+Selection read_selection(const nlohmann::json& document, const Garment& garment, const std::string& pointer);
+
+/// What is sewn onto a valid garment: fills its elastics, drawcords and trims.
+void read_trims(const nlohmann::json& document, const std::string& pointer, Garment& garment);
+
 /// One valid pin of a garment.
 Pin read_pin(const nlohmann::json& document, const Garment& garment, const std::string& pointer, bool on_body);
 

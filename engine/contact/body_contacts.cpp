@@ -27,7 +27,7 @@ std::vector<Contact> body_contacts(const CollisionMesh& mesh, const BodyField& b
     for (int v = range.begin(); v < range.end(); ++v) at_vertex[v] = body.sample(x[v]);
   });
   std::vector<BodyField::Sample> at_edge(edges);
-  const auto offset = [&](int v) { return options.offset > 0 ? options.offset : mesh.body_offset[v]; };
+  const auto offset = [&](int v) { return offset_from_body(mesh, options, v); };
   const auto half_offset = [&](int e) { return 0.5 * std::min(offset(mesh.edges[e][0]), offset(mesh.edges[e][1])); };
   const auto friction = [&](int v) {
     return options.friction >= 0 ? options.friction : mesh.friction.body[mesh.fabric[v]];

@@ -14,6 +14,11 @@ struct BodyContactOptions {
   double friction = 0.3;  ///< Coulomb coefficient; < 0: the mesh's friction table
 };
 
+/// How far a vertex is kept off the surface [m].
+inline double offset_from_body(const CollisionMesh& mesh, const BodyContactOptions& options, int vertex) {
+  return options.offset > 0 ? options.offset : mesh.body_offset[vertex];
+}
+
 /// Vertices nearer to the body than their offset; and midpoints of edges nearer than half of it (of the smaller one),
 /// so that the chord of a coarse triangle does not cut into a finger. gap is the distance field, linear about x.
 /// Parallel, in a fixed order.

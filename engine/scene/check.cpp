@@ -56,6 +56,7 @@ double check_garment(const Garment& garment, std::size_t index, bool has_body, s
     if (!(std::abs(grain) <= kTurn)) problems.push_back({place, "grain_range", "The grain must be within a turn."});
   }
   check_pins(garment, has_body, pointer + "/pins", problems);
+  check_trims(garment, pointer, problems);
   return vertices;
 }
 

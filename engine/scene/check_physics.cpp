@@ -156,28 +156,37 @@ void check_body(const Body& body, std::vector<Problem>& problems) {
   }
 }
 
+void check_selection(const Selection& select, const Garment& garment, const std::string& pointer,
+                     std::vector<Problem>& problems) {
+  if (const auto* label = std::get_if<PinLabel>(&select); label && !has_label(garment, label->label)) {
+    problems.push_back({pointer + "/label", "unknown_label", "No edge is labelled \"" + label->label + "\"."});
+  }
+  if (const auto* edge = std::get_if<PinEdge>(&select); edge && !has_edge(garment, *edge)) {
+    problems.push_back({pointer + "/edge", "unknown_edge", "The garment has no such panel edge."});
+  }
+  if (const auto* box = std::get_if<PinBox>(&select); box && !(box->min.array() <= box->max.array()).all()) {
+    problems.push_back({pointer + "/box_mm", "empty_box", "min lies above max along an axis."});
+  }
+  if (const auto* nearest = std::get_if<PinNearest>(&select); nearest && !nearest->point.allFinite()) {
+    problems.push_back({pointer + "/nearest_mm", "not_finite", "The point is not finite."});
+  }
+  if (const auto* list = std::get_if<PinVertices>(&select);
+      list && std::any_of(list->vertices.begin(), list->vertices.end(), [](int v) { return v < 0; })) {
+    problems.push_back({pointer + "/vertices", "vertex_out_of_range", "A vertex index is negative."});
+  }
+}
+
 void check_pins(const Garment& garment, bool has_body, const std::string& pointer, std::vector<Problem>& problems) {
   for (std::size_t p = 0; p < garment.pins.size(); ++p) {
     const Pin& pin = garment.pins[p];
     const std::string here = pointer + "/" + std::to_string(p);
-    if (const auto* label = std::get_if<PinLabel>(&pin.select); label && !has_label(garment, label->label)) {
-      problems.push_back({here + "/label", "unknown_label", "No edge is labelled \"" + label->label + "\"."});
-    }
-    if (const auto* edge = std::get_if<PinEdge>(&pin.select); edge && !has_edge(garment, *edge)) {
-      problems.push_back({here + "/edge", "unknown_edge", "The garment has no such panel edge."});
-    }
-    if (const auto* box = std::get_if<PinBox>(&pin.select); box && !(box->min.array() <= box->max.array()).all()) {
-      problems.push_back({here + "/box_mm", "empty_box", "min lies above max along an axis."});
-    }
-    if (const auto* nearest = std::get_if<PinNearest>(&pin.select); nearest && !nearest->point.allFinite()) {
-      problems.push_back({here + "/nearest_mm", "not_finite", "The point is not finite."});
-    }
-    if (const auto* list = std::get_if<PinVertices>(&pin.select);
-        list && std::any_of(list->vertices.begin(), list->vertices.end(), [](int v) { return v < 0; })) {
-      problems.push_back({here + "/vertices", "vertex_out_of_range", "A vertex index is negative."});
-    }
+    check_selection(pin.select, garment, here, problems);
     if (std::holds_alternative<PinAttached>(pin.hold) && !has_body) {
       problems.push_back({here, "attached_without_body", "There is no body to be attached to."});
+    }
+    if (const auto* attached = std::get_if<PinAttached>(&pin.hold);
+        attached && attached->friction && !within(*attached->friction, 0, 10)) {
+      problems.push_back({here + "/friction", "pin_value", "The coefficient of friction must be 0 to 10."});
     }
     const auto* moved = std::get_if<PinMoved>(&pin.hold);
     if (!moved) continue;

@@ -7,6 +7,7 @@
 #include "engine/scene/pattern.h"
 #include "engine/scene/pin.h"
 #include "engine/scene/solver_options.h"
+#include "engine/scene/trim.h"
 
 #include <map>
 #include <optional>
@@ -33,6 +34,9 @@ struct Garment {
   std::map<std::string, double> panel_grain;  ///< by panel (group) name, instead of `grain` [rad]
   double edge_length = 0.015;                 ///< target [m]; a mesh garment keeps its own
   std::vector<Pin> pins;
+  std::vector<Elastic> elastics;
+  std::vector<Drawcord> drawcords;
+  std::vector<Trim> trims;
 };
 
 /// The rung on the ladder of speed against accuracy. `preview` stops after the position-based solver.

@@ -33,7 +33,7 @@ CollisionMesh mesh_of(const Cloth& cloth, const SimulationScene& scene) {
 class Touching {
  public:
   Touching(const Cloth& cloth, const SimulationScene& scene)
-      : proximity_(mesh_of(cloth, scene), kListRadius), body_(scene.body) {
+      : proximity_(mesh_of(cloth, scene), kListRadius), body_(scene.body), sliding_(scene.sliding) {
     body_options_.offset = scene.options.body_offset;
     body_options_.friction = -1;
   }
@@ -42,7 +42,8 @@ class Touching {
     proximity_.update(x);
     std::vector<Contact> contacts = proximity_.contacts();
     if (body_) {
-      const std::vector<Contact> more = body_contacts(proximity_.mesh(), *body_, x, body_options_);
+      std::vector<Contact> more = body_contacts(proximity_.mesh(), *body_, x, body_options_);
+      add_sliding_contacts(sliding_, proximity_.mesh(), *body_, x, body_options_, more);
       contacts.insert(contacts.end(), more.begin(), more.end());
     }
     memory_.recall(contacts, x);
@@ -59,6 +60,7 @@ class Touching {
  private:
   Proximity proximity_;
   const BodyField* body_;
+  std::vector<SlidingVertex> sliding_;
   BodyContactOptions body_options_;
   FrictionMemory memory_;
 };
@@ -67,7 +69,7 @@ class Touching {
 double rms_residual(const Positions& force, const std::vector<double>& mass, const std::vector<char>& held) {
   double sum = 0;
   long count = 0;
-  for (std::size_t v = 0; v < force.size(); ++v) {
+  for (std::size_t v = 0; v < held.size(); ++v) {
     if (held[v] || mass[v] <= 0) continue;
     sum += force[v].squaredNorm() / std::pow(mass[v] * kGravity, 2);
     ++count;
@@ -77,6 +79,18 @@ double rms_residual(const Positions& force, const std::vector<double>& mass, con
 
 bool finite(const Positions& positions) {
   return std::all_of(positions.begin(), positions.end(), [](const Vec3& p) { return p.allFinite(); });
+}
+
+bool finite(const std::vector<RigidState>& trims) {
+  return std::all_of(trims.begin(), trims.end(), [](const RigidState& t) {
+    return t.center.allFinite() && t.orientation.coeffs().allFinite() && t.velocity.allFinite() &&
+           t.angular_velocity.allFinite();
+  });
+}
+
+void stop(State& state) {
+  std::fill(state.v.begin(), state.v.end(), Vec3::Zero());
+  for (RigidState& trim : state.trims) trim.velocity = trim.angular_velocity = Vec3::Zero();
 }
 
 }  // namespace
@@ -89,12 +103,13 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   const SolverOptions& options = scene.options;
   const std::size_t n = cloth.x.size();
   Simulation result;
-  BackwardEuler solver(cloth, options);
+  BackwardEuler solver(cloth, options, scene.trimmings);
   Touching touching(cloth, scene);
   TimeStep time_step(options);
   RestDetector rest(options);
   StepTimes step_times;
-  State state{cloth.x, Positions(n, Vec3::Zero())};
+  State state{cloth.x, Positions(n, Vec3::Zero()), {}};
+  for (const RigidTrim& trim : scene.trimmings.trims) state.trims.push_back(trim.start);
   Kinematic kinematic{std::vector<char>(n, 0), cloth.x};
   for (const HeldVertex& held : scene.held) kinematic.held[held.vertex] = 1;
   const double moving_until = std::max(last_key_frame(scene.held), options.relaxation_time);
@@ -111,26 +126,33 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
     for (const HeldVertex& held : scene.held) kinematic.target[held.vertex] = position_at(held, t + h);
 
     const Positions before = state.x;
+    const std::vector<RigidState> trims_before = state.trims;
     const StepOutcome outcome = solver.step(state, h, relaxation_factor(t, options), contacts, kinematic, step_times);
     result.newton_iterations += outcome.newton_iterations;
     result.cg_iterations += outcome.cg_iterations;
-    if (outcome.accepted && finite(state.x)) {
+    if (outcome.accepted && finite(state.x) && finite(state.trims)) {
       const long limited = touching.limit(before, state.x);
       if (limited > 0)
         for (std::size_t v = 0; v < n; ++v) state.v[v] = (state.x[v] - before[v]) / h;
       result.limited_vertices += limited;
       touching.remember(contacts, state.x);
-      if (relaxing(t, options)) std::fill(state.v.begin(), state.v.end(), Vec3::Zero());
+      if (relaxing(t, options)) stop(state);
       t += h;
       ++result.steps;
       time_step.accepted();
       energy = solver.kinetic_energy(state);
       bool quiet = rest.update(energy, h);
+      // A trim is one node among thousands, but its swing is not noise: each has to be at rest.
+      if (std::any_of(energy.begin() + static_cast<std::ptrdiff_t>(n), energy.end(),
+                      [&](double e) { return e >= options.rest_kinetic_energy; })) {
+        rest.reset();
+        quiet = false;
+      }
       if (quiet && t >= moving_until && options.rest_residual > 0) {
         // The check costs about half a step, so it is not made at each one.
         if (t >= next_force_check) {
-          balanced = rms_residual(solver.static_forces(state.x, contacts), solver.masses(), kinematic.held) <
-                     options.rest_residual;
+          balanced = rms_residual(solver.static_forces(state.x, contacts, state.trims), solver.masses(),
+                                  kinematic.held) < options.rest_residual;
           next_force_check = t + kForceCheckInterval;
         }
         quiet = balanced;
@@ -141,6 +163,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
       if (options.early_stop && result.stop_reason == "at_rest") break;
     } else {
       state.x = before;
+      state.trims = trims_before;
       time_step.rejected();
       if (time_step.too_small()) {
         result.stop_reason = "step_too_small";
@@ -161,7 +184,9 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   result.times.line_search = step_times.line_search;
   for (double e : energy) result.kinetic_energy += e;
   result.contacts = touching.detect(state.x);
-  result.net_force = solver.static_forces(state.x, result.contacts);
+  result.net_force = solver.static_forces(state.x, result.contacts, state.trims);
+  result.net_force.resize(n);
+  result.trims = state.trims;
   result.contact_force = solver.contact_forces(state.x, result.contacts);
   result.mass = solver.masses();
   return result;

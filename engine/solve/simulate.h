@@ -8,6 +8,7 @@
 #include "engine/scene/friction.h"
 #include "engine/scene/solver_options.h"
 #include "engine/solve/pin_motion.h"
+#include "engine/solve/trimmings.h"
 
 #include <functional>
 #include <string>
@@ -40,6 +41,7 @@ struct Simulation {
   std::vector<Contact> contacts;  ///< active at the end
   Positions net_force;            ///< on free vertices, contacts and friction included [N]; zero on held ones
   std::vector<double> mass;       ///< lumped [kg]
+  std::vector<RigidState> trims;  ///< at the end
   std::vector<double> contact_force;  ///< per vertex, sum of contact force magnitudes [N]
 };
 
@@ -49,6 +51,8 @@ struct SimulationScene {
   double body_friction = 0;  ///< < 0: each fabric's own
   std::vector<HeldVertex> held;
   std::vector<FrictionPair> friction_pairs;  ///< contact/friction_table.h
+  std::vector<SlidingVertex> sliding;  ///< along the body; empty without one
+  Trimmings trimmings;
 };
 
 /// Advances cloth.x to rest. No NaN is ever written to it: a step that fails at the smallest time step ends the run

@@ -49,20 +49,23 @@ void clear(Positions& force, int nodes) { force.assign(nodes, Vec3::Zero()); }
 
 }  // namespace
 
-StaticSystem::StaticSystem(const Cloth& cloth)
+StaticSystem::StaticSystem(const Cloth& cloth, const Trimmings& trimmings)
     : order_(reverse_cuthill_mckee(static_cast<int>(cloth.x.size()), cloth.triangles)),
       place_(inverse_permutation(order_)),
       membrane_(membrane_stencils(cloth)),
-      bending_(bending_stencils(cloth)) {
+      bending_(bending_stencils(cloth)),
+      trims_(trimmings, place_) {
   const std::vector<double> mass = lumped_masses(cloth);
   for (int old : order_) mass_.push_back(mass[old]);
   membrane_colors_ = arrange(membrane_, place_);
   bending_colors_ = arrange(bending_, place_);
 
   const std::vector<int> membrane_nodes = node_list(membrane_), bending_nodes = node_list(bending_);
-  const std::array<BlockMatrix::Stencils, 2> stencils = {
-      {{std::span<const int>(membrane_nodes), 3}, {std::span<const int>(bending_nodes), 4}}};
-  topology_ = BlockMatrix(nodes(), stencils);
+  const std::array<BlockMatrix::Stencils, 3> stencils = {{{std::span<const int>(membrane_nodes), 3},
+                                                          {std::span<const int>(bending_nodes), 4},
+                                                          {std::span<const int>(trims_.stencil_nodes()), 5}}};
+  topology_ = BlockMatrix(nodes() + 2 * trims_.trims(), stencils);
+  trims_.find_slots(topology_);
   for (const MembraneStencil& s : membrane_) {
     const auto& n = s.nodes;
     membrane_slots_.push_back({topology_.slot(n[0], n[1]), topology_.slot(n[0], n[2]), topology_.slot(n[1], n[2]),
@@ -78,7 +81,7 @@ StaticSystem::StaticSystem(const Cloth& cloth)
 BlockMatrix StaticSystem::make_matrix() const { return topology_; }
 
 void StaticSystem::forces(const Positions& x, const Positions& v, double fabric_factor, Positions& force) const {
-  clear(force, nodes());
+  clear(force, unknowns());
   for_each_colored(membrane_colors_, [&](int k) {
     const MembraneStencil& s = membrane_[k];
     scatter(membrane_force(s, gather(x, s.nodes), gather(v, s.nodes), fabric_factor), s.nodes, force);
@@ -91,7 +94,7 @@ void StaticSystem::forces(const Positions& x, const Positions& v, double fabric_
 
 void StaticSystem::forces_and_matrix(const Positions& x, const Positions& v, const SystemWeights& weights,
                                      Positions& force, BlockMatrix& matrix) const {
-  clear(force, nodes());
+  clear(force, unknowns());
   matrix.set_zero();
   for_each_colored(membrane_colors_, [&](int k) {
     const MembraneStencil& s = membrane_[k];

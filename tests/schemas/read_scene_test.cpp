@@ -172,6 +172,23 @@ TEST(ReadScene, Pins) {
   EXPECT_DOUBLE_EQ(moved.key_frames[1].rotation_vector.y(), 4 * M_PI) << "about one axis, whole turns are kept";
 }
 
+TEST(ReadScene, ElasticsAndDrawcords) {
+  const Garment garment = garment_from(
+      R"({"rectangle": {"width_mm": 400, "height_mm": 300},
+          "elastics": [{"edge": {"panel": "rectangle", "edge": 2}, "length_percent": 80, "stiffness_N": 12}],
+          "drawcords": [{"vertices": [0, 1, 2], "length_mm": 350, "damping_s": 0.5}]})");
+  ASSERT_EQ(garment.elastics.size(), 1u);
+  EXPECT_EQ(std::get<PinEdge>(garment.elastics[0].select).edge, 2);
+  EXPECT_DOUBLE_EQ(garment.elastics[0].length_factor, 0.8);
+  EXPECT_DOUBLE_EQ(garment.elastics[0].stiffness, 12);
+  EXPECT_DOUBLE_EQ(garment.elastics[0].damping, Elastic{}.damping);
+  ASSERT_EQ(garment.drawcords.size(), 1u);
+  EXPECT_THAT(std::get<PinVertices>(garment.drawcords[0].select).vertices, ElementsAre(0, 1, 2));
+  EXPECT_DOUBLE_EQ(garment.drawcords[0].length, 0.35);
+  EXPECT_DOUBLE_EQ(garment.drawcords[0].stiffness, Drawcord{}.stiffness);
+  EXPECT_DOUBLE_EQ(garment.drawcords[0].damping, 0.5);
+}
+
 TEST(ReadScene, Bodies) {
   EXPECT_DOUBLE_EQ(std::get<SphereBody>(body_from(R"({"sphere": {"radius_mm": 100}})").shape).radius, 0.1);
   const auto capsule = std::get<CapsuleBody>(

@@ -149,6 +149,38 @@ TEST(ConjugateGradient, AgreesWithDenseSolve) {
   EXPECT_LT((as_vector(x) - expected).norm(), 1e-4 * expected.norm());
 }
 
+TEST(RankOneMatrix, JoinsTheSystemAsItsDenseSelf) {
+  RandomSystem s(6);
+  std::mt19937 random(3);
+  std::normal_distribution<float> normal;
+  RankOneMatrix wide;
+  const std::vector<std::vector<int>> nodes = {{0, 3, 9, 20, 41, 48}, {40, 41, 5}};
+  wide.rebuild(s.rows, nodes);
+  ASSERT_EQ(wide.size(), 2);
+  for (int k = 0; k < 2; ++k) {
+    std::vector<Eigen::Vector3f> parts;
+    Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * s.rows);
+    for (int node : nodes[k]) {
+      parts.emplace_back(3 * normal(random), 3 * normal(random), 3 * normal(random));
+      g.segment<3>(3 * node) = parts.back().cast<double>();
+    }
+    wide.set(k, parts);
+    s.dense += g * g.transpose();
+  }
+  for (int i = 0; i < s.rows; ++i) {
+    const Eigen::Matrix3f diagonal =
+        Eigen::Map<const Eigen::Matrix3f>(s.matrix.values(i)) + s.contact.diagonal(i) + wide.diagonal(i);
+    EXPECT_LT((diagonal.cast<double>() - s.dense.block<3, 3>(3 * i, 3 * i)).norm(), 1e-4);
+    s.preconditioner.set(i, diagonal);
+  }
+  NodeVector x;
+  const CgOutcome outcome =
+      ConjugateGradient().solve(s.matrix, s.contact, s.preconditioner, s.right, 1e-6, 2000, x, &wide);
+  EXPECT_LT(outcome.relative_residual, 1e-6);
+  const Eigen::VectorXd expected = s.dense.ldlt().solve(as_vector(s.right));
+  EXPECT_LT((as_vector(x) - expected).norm(), 1e-3 * expected.norm());
+}
+
 TEST(ConjugateGradient, HeldNodesStayAndTheRestIsTheReducedSystem) {
   RandomSystem s(6);
   std::vector<int> free;

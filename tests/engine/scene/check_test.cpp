@@ -196,6 +196,22 @@ TEST(CheckScene, NamesWhatIsWrongWithFabricsBodiesPinsAndSolver) {
          moved.key_frames.resize(2);
          pin(s).hold = moved;
        }},
+      {"unknown_label /garments/0/elastics/0/label",
+       [](Scene& s) {
+         s.garments[0].elastics = {{PinLabel{"cuff"}, 0.8, 30, 0}};
+       }},
+      {"trim_value /garments/0/elastics/0/length_percent",
+       [](Scene& s) {
+         s.garments[0].elastics = {{PinLabel{"lower_interface"}, kNan, 30, 0}};
+       }},
+      {"trim_value /garments/0/drawcords/0/stiffness_N",
+       [](Scene& s) {
+         s.garments[0].drawcords = {{PinLabel{"lower_interface"}, 0.7, 0, 0}};
+       }},
+      {"selects_no_edge /garments/0/drawcords/0",
+       [](Scene& s) {
+         s.garments[0].drawcords = {{PinNearest{Vec3::Zero()}, 0.7, 100, 0}};
+       }},
       {"solver_value /solver/max_time_step_s", [](Scene& s) { s.solver.max_time_step = kNan; }},
       {"solver_value /solver/splitting_factor", [](Scene& s) { s.solver.splitting_factor = 1; }},
   };
