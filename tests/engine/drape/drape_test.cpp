@@ -240,6 +240,19 @@ TEST(Drape, ATinyPatternIsNotDrapedAndItsSizeIsSaid) {
   EXPECT_TRUE(warns(report, "implausible_size: garment 0 is 0.0"));
 }
 
+TEST(Drape, TinyPanelsInsideTheBodyAreRefusedForBothReasons) {
+  Scene scene = misread_skirt(0.1);
+  scene.body = Body{SphereBody{Vec3::Zero(), 2.0}, 0.3};
+  const std::vector<Problem> problems = problems_of(scene);
+  ASSERT_GE(problems.size(), 2U);
+  EXPECT_EQ(problems[0].code, "panel_inside_body");
+  for (std::size_t p = 1; p < problems.size(); ++p) {
+    EXPECT_EQ(problems[p].code, "implausible_size");
+    EXPECT_EQ(problems[p].pointer, "/garments");
+    EXPECT_NE(problems[p].detail.find("are its units right?"), std::string::npos) << problems[p].detail;
+  }
+}
+
 TEST(Drape, ABodyWithAHoleCarriesTheClothAndIsToldOf) {
   Scene scene = ball_scene();
   scene.body = Body{MeshBody{ball_mesh(0.1, 16, 32)}, 0.3};
