@@ -7,6 +7,7 @@
 #include "engine/scene/pin.h"
 #include "engine/scene/solver_options.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -41,5 +42,12 @@ struct Scene {
   Fidelity fidelity = Fidelity::standard;
   SolverOptions solver;
 };
+
+/// Of its garments [m]; at most 0.1.
+inline double smallest_edge_length(const Scene& scene) {
+  double length = 0.1;
+  for (const Garment& garment : scene.garments) length = std::min(length, garment.edge_length);
+  return length;
+}
 
 }  // namespace toile

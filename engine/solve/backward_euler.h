@@ -4,6 +4,7 @@
 
 #include "engine/contact/contact.h"
 #include "engine/mesh/cloth.h"
+#include "engine/report.h"
 #include "engine/scene/solver_options.h"
 
 #include <memory>
@@ -66,6 +67,8 @@ class BackwardEuler {
 
   const std::vector<double>& masses() const;  ///< lumped, per vertex [kg]
   Energies energies(const State& state, const std::vector<Contact>& contacts) const;
+  /// What each static term and gravity store at these positions; a new term of StaticSystem is in it by itself.
+  std::vector<TermEnergy> energies_by_term(const Positions& x) const;
   std::vector<double> kinetic_energy(const State& state) const;  ///< per vertex [J]
   /// Net force of all terms at rest, gravity and contacts (with friction) included, on every vertex, held ones too [N].
   Positions static_forces(const Positions& x, const std::vector<Contact>& contacts) const;

@@ -1,13 +1,11 @@
 #include "engine/solve/simulate.h"
 
-#include "engine/contact/body_contacts.h"
-#include "engine/contact/friction_memory.h"
-#include "engine/contact/proximity.h"
 #include "engine/monitor.h"
 #include "engine/solve/backward_euler.h"
 #include "engine/solve/relaxation.h"
 #include "engine/solve/rest.h"
 #include "engine/solve/time_step.h"
+#include "engine/solve/touching.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,49 +17,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kForceCheckInterval = 0.01;  // [s]
-constexpr double kListRadius = 5e-3;          // [m] at least: lets fine meshes fall at over a metre a second
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// Finds what touches, and remembers friction from step to step.
-class Touching {
- public:
-  Touching(const Cloth& cloth, const SimulationScene& scene)
-      : proximity_(make_collision_mesh(cloth, scene.options.contact_distance), kListRadius), body_(scene.body) {
-    double friction = 0;
-    for (const Fabric& fabric : cloth.fabrics) friction = std::max(friction, fabric.friction_body);
-    body_options_.friction = scene.body_friction >= 0 ? scene.body_friction : friction;
-    body_options_.offset = scene.options.body_offset;
-    if (body_options_.offset > 0) return;
-    for (const ClothPanel& panel : cloth.panels)
-      body_options_.offset =
-          std::max(body_options_.offset, default_body_offset(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
-  }
-
-  std::vector<Contact> detect(const Positions& x) {
-    proximity_.update(x);
-    std::vector<Contact> contacts = proximity_.contacts();
-    if (body_) {
-      const std::vector<Contact> more = body_contacts(proximity_.mesh(), *body_, x, body_options_);
-      contacts.insert(contacts.end(), more.begin(), more.end());
-    }
-    memory_.recall(contacts, x);
-    return contacts;
-  }
-
-  /// Cuts short the moves since detect() that could have crossed cloth; returns their number.
-  long limit(const Positions& from, Positions& to) const {
-    return limit_displacements(from, proximity_.displacement_bounds(), to);
-  }
-
-  void remember(const std::vector<Contact>& contacts, const Positions& x) { memory_.store(contacts, x); }
-
- private:
-  Proximity proximity_;
-  const BodyField* body_;
-  BodyContactOptions body_options_;
-  FrictionMemory memory_;
-};
 
 /// Of the net force over nodal weight, on free vertices.
 double rms_residual(const Positions& force, const std::vector<double>& mass, const std::vector<char>& held) {
@@ -85,12 +42,16 @@ double estimated_progress(const SimulationState& state, const SolverOptions& opt
   return std::max(state.time / (state.time + 1.0), state.time / options.simulated_time_limit);
 }
 
+TouchingOptions touching_options(const SimulationScene& scene) {
+  return {scene.body, scene.body_friction, scene.options.contact_distance, scene.options.body_offset};
+}
+
 Simulation simulate(Cloth& cloth, const SimulationScene& scene, const SimulationProgress& progress) {
   const SolverOptions& options = scene.options;
   const std::size_t n = cloth.x.size();
   Simulation result;
   BackwardEuler solver(cloth, options);
-  Touching touching(cloth, scene);
+  Touching touching(cloth, touching_options(scene));
   TimeStep time_step(options);
   RestDetector rest(options);
   StepTimes step_times;
@@ -164,6 +125,9 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   result.net_force = solver.static_forces(state.x, result.contacts);
   result.contact_force = solver.contact_forces(state.x, result.contacts);
   result.mass = solver.masses();
+  result.energies = solver.energies_by_term(state.x);
+  result.cloth_contacts = touching.cloth_contacts();
+  result.contact_distance = touching.mesh().distance;
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include "engine/quality/measure.h"
 
 #include "engine/parallel/state_hash.h"
+#include "engine/quality/warnings.h"
 
 #include <gtest/gtest.h>
 
@@ -96,7 +97,7 @@ TEST(Warnings, SayWhatAReaderShouldNotOverlook) {
   fine.stretch_warp.p99 = 0.04;
   fine.penetration_max = 1e-3;
   fine.residual_rms = 0.01;
-  add_warnings(cloth, fine);
+  add_warnings(cloth, {}, fine);
   EXPECT_TRUE(fine.warnings.empty());
 
   Report bad;
@@ -105,7 +106,7 @@ TEST(Warnings, SayWhatAReaderShouldNotOverlook) {
   bad.penetration_max = 3.4e-3;
   bad.self_intersections = 17;
   bad.residual_rms = 0.5;
-  add_warnings(cloth, bad);
+  add_warnings(cloth, {}, bad);
   EXPECT_EQ(bad.warnings.size(), 5u);
   EXPECT_TRUE(warns(bad, "said before"));
   EXPECT_TRUE(warns(bad, "12.3 %"));
@@ -119,7 +120,7 @@ TEST(Warnings, KnitsMayStretch) {
   cloth.fabrics[0].woven = false;
   Report report;
   report.stretch_weft.p99 = 0.2;
-  add_warnings(cloth, report);
+  add_warnings(cloth, {}, report);
   EXPECT_TRUE(report.warnings.empty());
 }
 
