@@ -13,6 +13,21 @@ namespace {
 constexpr double kFarthest = 1e3;     // [m] of a coordinate
 constexpr double kSameCorner = 1e-3;  // of the largest flat coordinate, between texture coordinates and the pattern
 
+/// A run's mesh.glb shows the body, too.
+TriangleMesh without_body(TriangleMesh mesh) {
+  if (mesh.group_names != std::vector<std::string>{"garment", "body"}) return mesh;
+  std::vector<Triangle> triangles;
+  std::vector<std::array<Vec2, 3>> uv;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.triangle_group[t] != 0) continue;
+    triangles.push_back(mesh.triangles[t]);
+    if (!mesh.corner_uv.empty()) uv.push_back(mesh.corner_uv[t]);
+  }
+  mesh.triangles = std::move(triangles);
+  mesh.corner_uv = std::move(uv);
+  return mesh;
+}
+
 /// Triangles as sets, in an order of their own.
 std::vector<Triangle> sorted(std::vector<Triangle> triangles) {
   for (Triangle& t : triangles) std::sort(t.begin(), t.end());
@@ -73,7 +88,8 @@ std::string counts(std::size_t vertices, std::size_t triangles) {
 
 }  // namespace
 
-MatchedCloth match_mesh(const Cloth& apart, const TriangleMesh& mesh) {
+MatchedCloth match_mesh(const Cloth& apart, const TriangleMesh& given) {
+  const TriangleMesh mesh = without_body(given);
   for (const Vec3& p : mesh.vertices)
     if (!(p.cwiseAbs().maxCoeff() < kFarthest))
       throw InputError("", "mesh_out_of_range", "a vertex of the mesh is more than a kilometre from the origin");

@@ -16,14 +16,26 @@ double flat_area(const std::array<Vec2, 3>& corner) {
   return 0.5 * std::abs(a.x() * b.y() - a.y() * b.x());
 }
 
+/// Of the edge v0–v1, in the flat pattern of a triangle that has it.
+Vec2 flat_edge(const Cloth& cloth, int triangle, int v0, int v1) {
+  const auto at = [&](int vertex) {
+    const Triangle& corners = cloth.triangles[triangle];
+    return cloth.flat[triangle][std::find(corners.begin(), corners.end() - 1, vertex) - corners.begin()];
+  };
+  return at(v1) - at(v0);
+}
+
 double shape_error(const Cloth& cloth, const std::vector<double>& area, double total) {
-  double sum = 0;
+  std::vector<Mat2> curvature(area.size(), Mat2::Zero());  // times area
   for (const Hinge& h : hinges(cloth.triangles)) {
     const double angle = dihedral_angle(cloth.x[h.v0], cloth.x[h.v1], cloth.x[h.v2], cloth.x[h.v3]);
-    const double length = (cloth.x[h.v1] - cloth.x[h.v0]).norm();
-    const double squared_edge = 2 / std::numbers::sqrt3 * (area[h.triangle_a] + area[h.triangle_b]);
-    sum += std::abs(angle) * length * squared_edge;
+    for (const int t : {h.triangle_a, h.triangle_b}) {
+      const Vec2 edge = flat_edge(cloth, t, h.v0, h.v1), normal = Vec2(-edge.y(), edge.x());
+      if (edge.norm() > 0) curvature[t] += 0.5 * angle / edge.norm() * normal * normal.transpose();
+    }
   }
+  double sum = 0;
+  for (std::size_t t = 0; t < area.size(); ++t) sum += 4 / std::numbers::sqrt3 * area[t] * curvature[t].norm();
   return kShapeErrorFactor * sum / total;
 }
 

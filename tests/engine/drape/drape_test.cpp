@@ -60,6 +60,17 @@ void expect_consistent(const Drape& drape, const Scene& scene) {
     EXPECT_LE(drape.stretch_warp[t], r.stretch_warp.max + 1e-12);
     EXPECT_LE(drape.stretch_weft[t], r.stretch_weft.max + 1e-12);
   }
+  for (const StretchStatistics& s : {r.stretch_warp, r.stretch_weft, r.stretch_bias}) {
+    EXPECT_LE(s.min, s.p01);
+    EXPECT_LE(s.p01, s.median);
+    EXPECT_LE(s.median, s.p99);
+  }
+  EXPECT_LE(r.contacts.body_sticking, r.contacts.body);
+  EXPECT_LE(r.contacts.cloth_sticking, r.contacts.cloth);
+  if (r.status != "failed") {
+    EXPECT_GT(r.discretisation_error, 0);
+    EXPECT_GE(r.energies.size(), 4u);
+  }
   EXPECT_GE(r.residual_max, r.residual_rms);
   EXPECT_GE(r.kinetic_energy, 0);
   const StageTimes& t = r.time;
