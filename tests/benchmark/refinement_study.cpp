@@ -1,13 +1,13 @@
 // How drapes settle as their meshes become finer, and whether the report's estimate of the discretisation error says
 // so.
 //
-//   refinement_study [scene] [--meshes FOLDER]
+//   refinement_study [scene] [--finest MM] [--meshes FOLDER]
 //
-// Drapes the scenes of tests/validation/refinement_scenes.h (all, or the one named) at 20, 14, 10, 7 and 5 mm and
-// prints for each edge length h: the mean distance d to the finest drape; the order log(d/d')/log(h/h') from the length
-// before; the report's estimate e of the distance to a mesh of no edge length; e/d; and (e − e₅)/d, what the estimate
-// says of the distance to the finest, which is no exact drape itself. Minutes. With --meshes, the drapes are kept as
-// OBJ files.
+// Drapes the scenes of tests/validation/refinement_scenes.h (all, or the one named) at 20, 14, 10, 7 and 5 mm, or down
+// to the length given, and prints for each edge length h: the mean distance d to the finest drape; the order
+// log(d/d')/log(h/h') from the length before; the report's estimate e of the distance to a mesh of no edge length; e/d;
+// and (e − e')/d, with e' the estimate of the finest, which is no exact drape itself. Takes minutes. With --meshes, the
+// drapes are kept as OBJ files.
 
 #include "engine/drape.h"
 #include "engine/mesh/build_cloth.h"
@@ -36,9 +36,10 @@ struct Ticker : Monitor {
   long count = 0;
 };
 
-std::vector<Drape> drapes_of(const RefinementScene& study, const std::string& folder) {
+std::vector<Drape> drapes_of(const RefinementScene& study, double finest, const std::string& folder) {
   std::vector<Drape> drapes;
   for (const double h : kEdgeLengths) {
+    if (h < finest - 1e-9) break;
     Ticker ticker;
     const Drape& result = drapes.emplace_back(drape(study.at(h), ticker));
     const Report& r = result.report;
@@ -62,7 +63,7 @@ void print_distances(const RefinementScene& study, const std::vector<Drape>& dra
       const double distance =
           surface_distance(drapes[i].cloth.x, drapes[i].cloth.triangles, finest.cloth.x, finest.cloth.triangles).mean;
       const double order = i > 0 ? std::log(before / distance) / std::log(kEdgeLengths[i - 1] / kEdgeLengths[i]) : 0;
-      std::printf("  to the finest %6.3f mm  order %5.2f  e/d %5.2f  (e - e5)/d %5.2f", 1e3 * distance, order,
+      std::printf("  to the finest %6.3f mm  order %5.2f  e/d %5.2f  (e - e')/d %5.2f", 1e3 * distance, order,
                   estimate / distance, (estimate - finest.report.discretisation_error) / distance);
       before = distance;
     }
@@ -75,9 +76,12 @@ void print_distances(const RefinementScene& study, const std::vector<Drape>& dra
 
 int main(int argc, char** argv) {
   std::string scene, folder;
+  double finest = 0;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--meshes") == 0 && i + 1 < argc)
       folder = argv[++i];
+    else if (std::strcmp(argv[i], "--finest") == 0 && i + 1 < argc)
+      finest = 1e-3 * std::atof(argv[++i]);
     else
       scene = argv[i];
   }
@@ -85,7 +89,7 @@ int main(int argc, char** argv) {
   for (const RefinementScene& study : refinement_scenes()) {
     if (!scene.empty() && study.name != scene) continue;
     found = true;
-    print_distances(study, drapes_of(study, folder));
+    print_distances(study, drapes_of(study, finest, folder));
   }
   if (!found) std::fprintf(stderr, "no scene '%s'\n", scene.c_str());
   return found ? 0 : 2;

@@ -40,8 +40,6 @@ struct RefinementScene {
   Scene at(double edge_length) const {
     Scene finer = scene;
     for (Garment& garment : finer.garments) garment.edge_length = edge_length;
-    finer.solver.newton_momentum_fraction = 0.01;  // the production setting's tenth leaves fine meshes short of rest
-    finer.solver.newton_iterations = 10;
     return finer;
   }
 };
