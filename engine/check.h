@@ -13,7 +13,8 @@ namespace toile {
 
 struct CheckOptions {
   /// Cloth that is so near to the body or to cloth counts as touching [m]; 0: as near as the scene's own contact
-  /// reaches. For programs that keep layers farther apart than this one does.
+  /// reaches. For programs that keep layers farther apart than this one does. Between cloth and cloth, 0.3 of the
+  /// smallest altitude of the triangles around bounds it, as everywhere.
   double touch = 0;
 };
 
