@@ -1,11 +1,12 @@
 #include "engine/drape.h"
 
-#include "engine/contact/collision_mesh.h"
+#include "engine/check.h"
 #include "engine/mesh/build_cloth.h"
 #include "engine/mesh/sewing.h"
 #include "engine/parallel/thread_limit.h"
 #include "engine/quality/measure.h"
 #include "engine/quality/stretch.h"
+#include "engine/quality/warnings.h"
 #include "engine/scene/check.h"
 #include "engine/scene/problem.h"
 #include "engine/solve/assemble.h"
@@ -44,12 +45,6 @@ class Reporter {
   Monitor& monitor_;
   double fraction_ = 0;
 };
-
-double smallest_edge_length(const Scene& scene) {
-  double length = 0.1;
-  for (const Garment& garment : scene.garments) length = std::min(length, garment.edge_length);
-  return length;
-}
 
 /// The reference rung: tolerances a hundred to a thousand times tighter, and no early stop.
 SolverOptions options_of(const Scene& scene) {
@@ -134,7 +129,8 @@ bool has_trims(const Scene& scene) {
                      [](const Garment& g) { return !g.elastics.empty() || !g.drawcords.empty() || !g.trims.empty(); });
 }
 
-void fill_simulation(const Simulation& simulation, const std::vector<HeldVertex>& held, Drape& drape) {
+void fill_simulation(const Simulation& simulation, const std::vector<HeldVertex>& held, double contact_stiffness,
+                     Drape& drape) {
   Report& report = drape.report;
   report.stop_reason = simulation.stop_reason;
   report.status = simulation.stop_reason == "at_rest" ? "converged" : "not_converged";
@@ -151,6 +147,9 @@ void fill_simulation(const Simulation& simulation, const std::vector<HeldVertex>
   std::vector<char> is_held(drape.cloth.x.size(), 0);
   for (const HeldVertex& h : held) is_held[h.vertex] = 1;
   measure_residual(simulation.net_force, simulation.mass, is_held, report);
+  report.energies = simulation.energies;
+  measure_contacts(drape.cloth, simulation.contacts, simulation.cloth_contacts, contact_stiffness, Friction::known,
+                   report);
   drape.contact_force = simulation.contact_force;
 }
 
@@ -191,6 +190,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
     for (const std::string& warning : bodies.whole->warnings()) report.warnings.push_back(warning);
 
   result.contact_force.assign(result.cloth.x.size(), 0.0);
+  std::vector<double> contact_distance;
   if (!assembly.open_seams.empty()) {
     report.status = "failed";
     report.stop_reason = "seams_open";
@@ -205,6 +205,15 @@ Drape drape(const Scene& scene, Monitor& monitor) {
     report.stop_reason = outcome.at_rest ? "at_rest" : "time_limit";
     report.status = outcome.at_rest ? "converged" : "not_converged";
     report.time.drape = seconds_since(started) - report.time.assemble;
+    contact_distance = measure_equilibrium(result.cloth,
+                                           {options_of(scene),
+                                            bodies.fields().whole,
+                                            scene.body ? scene.body->friction.value_or(-1) : 0.0,
+                                            held,
+                                            scene.friction_pairs,
+                                            {},
+                                            {}},
+                                           {}, report);
     report.warnings.push_back("preview: positions only, no forces; not an equilibrium of the fabric");
     if (slides_on_body(scene)) report.warnings.push_back("preview: what slides along the body is held");
     if (has_trims(scene)) report.warnings.push_back("preview: elastics and drawcords do not pull, trims are left out");
@@ -223,14 +232,15 @@ Drape drape(const Scene& scene, Monitor& monitor) {
       return reporter({relaxing ? "relax" : "drape", state.time, state.kinetic_energy, state.contacts,
                        kAssembled + (kDraped - kAssembled) * estimated_progress(state, scene.solver)});
     });
-    fill_simulation(simulation, simulated.held, result);
+    fill_simulation(simulation, simulated.held, simulated.options.contact_stiffness, result);
     result.trims = simulated.trimmings.trims;
     for (std::size_t t = 0; t < result.trims.size(); ++t) result.trims[t].start = simulation.trims[t];
+    contact_distance = simulation.contact_distance;
     report.time.drape = seconds_since(started) - report.time.assemble;
   }
   stage("measure", kDraped);
   measure_geometry(result.cloth, bodies.fields().whole, report);
-  add_warnings(result.cloth, report);
+  add_warnings(result.cloth, contact_distance, report);
   const TriangleStretch stretch = triangle_stretch(result.cloth.flat, result.cloth.triangles, result.cloth.x);
   result.stretch_warp = stretch.warp;
   result.stretch_weft = stretch.weft;

@@ -9,6 +9,7 @@
 #include "engine/scene/solver_options.h"
 #include "engine/scene/trim.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -50,5 +51,12 @@ struct Scene {
   Fidelity fidelity = Fidelity::standard;
   SolverOptions solver;
 };
+
+/// Of its garments [m]; at most 0.1.
+inline double smallest_edge_length(const Scene& scene) {
+  double length = 0.1;
+  for (const Garment& garment : scene.garments) length = std::min(length, garment.edge_length);
+  return length;
+}
 
 }  // namespace toile

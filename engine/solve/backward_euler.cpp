@@ -299,6 +299,16 @@ Energies BackwardEuler::energies(const State& state, const std::vector<Contact>&
   return e;
 }
 
+std::vector<TermEnergy> BackwardEuler::energies_by_term(const Positions& x) const {
+  const Implementation& s = *implementation_;
+  std::vector<TermEnergy> energies = s.system.energies(permuted(x, s.system.order()));
+  double gravity = 0;
+  if (s.options.gravity)
+    for (std::size_t v = 0; v < x.size(); ++v) gravity += gravity_energy(masses()[v], x[v]);
+  energies.push_back({"gravity", gravity});
+  return energies;
+}
+
 std::vector<double> BackwardEuler::kinetic_energy(const State& state) const {
   std::vector<double> energy(state.v.size());
   for (std::size_t i = 0; i < energy.size(); ++i) energy[i] = 0.5 * masses()[i] * state.v[i].squaredNorm();

@@ -4,6 +4,7 @@
 
 #include "engine/contact/contact.h"
 #include "engine/mesh/cloth.h"
+#include "engine/report.h"
 #include "engine/scene/solver_options.h"
 #include "engine/solve/trimmings.h"
 
@@ -69,6 +70,8 @@ class BackwardEuler {
 
   const std::vector<double>& masses() const;  ///< lumped, per vertex [kg]
   Energies energies(const State& state, const std::vector<Contact>& contacts) const;
+  /// What each static term and gravity store at these positions; a new term of StaticSystem is in it by itself.
+  std::vector<TermEnergy> energies_by_term(const Positions& x) const;
   std::vector<double> kinetic_energy(const State& state) const;  ///< per vertex, then per trim [J]
   /// Net force of all terms at rest, gravity and contacts (with friction) included, on every vertex, held ones too [N].
   /// Those of the trims follow, two each: the force on the centre [N], and the torque over RigidBody::gyration [N].

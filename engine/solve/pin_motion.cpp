@@ -51,6 +51,11 @@ std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth
 
 std::vector<SlidingVertex> sliding_vertices(const Scene& scene, const Cloth& apart, const Cloth& sewn,
                                             const std::vector<int>& old_to_new) {
+  std::vector<double> cloth_friction(sewn.x.size(), 0);
+  for (std::size_t t = 0; t < sewn.triangles.size(); ++t)
+    for (int v : sewn.triangles[t])
+      cloth_friction[v] =
+          std::max(cloth_friction[v], sewn.fabrics[sewn.panels[sewn.triangle_panel[t]].fabric].friction_body);
   std::map<int, double> friction;
   for (std::size_t g = 0; g < scene.garments.size(); ++g)
     for (const Pin& pin : scene.garments[g].pins) {
@@ -59,7 +64,9 @@ std::vector<SlidingVertex> sliding_vertices(const Scene& scene, const Cloth& apa
       const bool named = std::holds_alternative<PinVertices>(pin.select);
       for (int v : pinned_vertices(pin, static_cast<int>(g), named ? sewn : apart)) {
         const int vertex = named ? v : old_to_new[v];
-        if (vertex >= 0) friction.try_emplace(vertex, attached->friction.value_or(scene.body->friction));
+        if (vertex < 0) continue;
+        const double of_body = scene.body->friction.value_or(cloth_friction[vertex]);
+        friction.try_emplace(vertex, attached->friction.value_or(of_body));
       }
     }
   std::vector<SlidingVertex> sliding;

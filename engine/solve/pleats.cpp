@@ -1,5 +1,6 @@
 #include "engine/solve/pleats.h"
 
+#include "engine/geometry/mean.h"
 #include "engine/mesh/sewing.h"
 #include "engine/mesh/topology.h"
 #include "engine/quality/intersections.h"
@@ -205,8 +206,7 @@ void close_sets(std::vector<std::vector<int>> sets, const std::vector<Triangle>&
     Positions tried = x;
     std::vector<int> with = closed;
     for (const std::vector<int>& set : chosen) {
-      Vec3 mean = Vec3::Zero();
-      for (int v : set) mean += x[v] / static_cast<double>(set.size());
+      const Vec3 mean = mean_of(x, set);
       for (int v : set) {
         tried[v] = mean;
         with[v] = set.front();

@@ -1,13 +1,11 @@
 #include "engine/solve/simulate.h"
 
-#include "engine/contact/body_contacts.h"
-#include "engine/contact/friction_memory.h"
-#include "engine/contact/proximity.h"
 #include "engine/monitor.h"
 #include "engine/solve/backward_euler.h"
 #include "engine/solve/relaxation.h"
 #include "engine/solve/rest.h"
 #include "engine/solve/time_step.h"
+#include "engine/solve/touching.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,51 +17,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kForceCheckInterval = 0.01;  // [s]
-constexpr double kListRadius = 5e-3;          // [m] at least: lets fine meshes fall at over a metre a second
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-CollisionMesh mesh_of(const Cloth& cloth, const SimulationScene& scene) {
-  CollisionMesh mesh = make_collision_mesh(cloth, scene.options.contact_distance);
-  mesh.friction = friction_table(cloth.fabrics, scene.body_friction, scene.friction_pairs);
-  return mesh;
-}
-
-/// Finds what touches, and remembers friction from step to step.
-class Touching {
- public:
-  Touching(const Cloth& cloth, const SimulationScene& scene)
-      : proximity_(mesh_of(cloth, scene), kListRadius), body_(scene.body), sliding_(scene.sliding) {
-    body_options_.offset = scene.options.body_offset;
-    body_options_.friction = -1;
-  }
-
-  std::vector<Contact> detect(const Positions& x) {
-    proximity_.update(x);
-    std::vector<Contact> contacts = proximity_.contacts();
-    if (body_) {
-      std::vector<Contact> more = body_contacts(proximity_.mesh(), *body_, x, body_options_);
-      add_sliding_contacts(sliding_, proximity_.mesh(), *body_, x, body_options_, more);
-      contacts.insert(contacts.end(), more.begin(), more.end());
-    }
-    memory_.recall(contacts, x);
-    return contacts;
-  }
-
-  /// Cuts short the moves since detect() that could have crossed cloth; returns their number.
-  long limit(const Positions& from, Positions& to) const {
-    return limit_displacements(from, proximity_.displacement_bounds(), to);
-  }
-
-  void remember(const std::vector<Contact>& contacts, const Positions& x) { memory_.store(contacts, x); }
-
- private:
-  Proximity proximity_;
-  const BodyField* body_;
-  std::vector<SlidingVertex> sliding_;
-  BodyContactOptions body_options_;
-  FrictionMemory memory_;
-};
 
 /// Of the net force over nodal weight, on free vertices.
 double rms_residual(const Positions& force, const std::vector<double>& mass, const std::vector<char>& held) {
@@ -99,12 +54,17 @@ double estimated_progress(const SimulationState& state, const SolverOptions& opt
   return std::max(state.time / (state.time + 1.0), state.time / options.simulated_time_limit);
 }
 
+TouchingOptions touching_options(const SimulationScene& scene) {
+  return {scene.body,           scene.body_friction, scene.options.contact_distance, scene.options.body_offset,
+          scene.friction_pairs, scene.sliding};
+}
+
 Simulation simulate(Cloth& cloth, const SimulationScene& scene, const SimulationProgress& progress) {
   const SolverOptions& options = scene.options;
   const std::size_t n = cloth.x.size();
   Simulation result;
   BackwardEuler solver(cloth, options, scene.trimmings);
-  Touching touching(cloth, scene);
+  Touching touching(cloth, touching_options(scene));
   TimeStep time_step(options);
   RestDetector rest(options);
   StepTimes step_times;
@@ -189,6 +149,9 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   result.trims = state.trims;
   result.contact_force = solver.contact_forces(state.x, result.contacts);
   result.mass = solver.masses();
+  result.energies = solver.energies_by_term(state.x);
+  result.cloth_contacts = touching.cloth_contacts();
+  result.contact_distance = touching.contact_distance();
   return result;
 }
 

@@ -8,7 +8,7 @@
 #include "engine/scene/friction.h"
 #include "engine/scene/solver_options.h"
 #include "engine/solve/pin_motion.h"
-#include "engine/solve/trimmings.h"
+#include "engine/solve/touching.h"
 
 #include <functional>
 #include <string>
@@ -35,14 +35,17 @@ struct Simulation {
   std::string stop_reason;  ///< "at_rest", "time_limit", "step_too_small"
   double time = 0;          ///< simulated [s]
   long steps = 0, newton_iterations = 0, cg_iterations = 0, splits = 0;
-  long limited_vertices = 0;      ///< vertex moves cut short, summed over steps, because they could have crossed cloth
-  StageTimes times;               ///< the parts of `drape`
-  double kinetic_energy = 0;      ///< [J] at the end
-  std::vector<Contact> contacts;  ///< active at the end
-  Positions net_force;            ///< on free vertices, contacts and friction included [N]; zero on held ones
-  std::vector<double> mass;       ///< lumped [kg]
-  std::vector<RigidState> trims;  ///< at the end
-  std::vector<double> contact_force;  ///< per vertex, sum of contact force magnitudes [N]
+  long limited_vertices = 0;       ///< vertex moves cut short, summed over steps, because they could have crossed cloth
+  StageTimes times;                ///< the parts of `drape`
+  double kinetic_energy = 0;       ///< [J] at the end
+  std::vector<Contact> contacts;   ///< at the end, friction included; those of the cloth with itself first, …
+  std::size_t cloth_contacts = 0;  ///< … so many of them
+  std::vector<double> contact_distance;  ///< per vertex, where cloth repels cloth [m]
+  std::vector<TermEnergy> energies;      ///< of what is not contact, at the end
+  Positions net_force;                   ///< on free vertices, contacts and friction included [N]; zero on held ones
+  std::vector<double> mass;              ///< lumped [kg]
+  std::vector<RigidState> trims;         ///< at the end
+  std::vector<double> contact_force;     ///< per vertex, sum of contact force magnitudes [N]
 };
 
 struct SimulationScene {
@@ -51,9 +54,11 @@ struct SimulationScene {
   double body_friction = 0;  ///< < 0: each fabric's own
   std::vector<HeldVertex> held;
   std::vector<FrictionPair> friction_pairs;  ///< contact/friction_table.h
-  std::vector<SlidingVertex> sliding;  ///< along the body; empty without one
+  std::vector<SlidingVertex> sliding;        ///< along the body; empty without one
   Trimmings trimmings;
 };
+
+TouchingOptions touching_options(const SimulationScene& scene);
 
 /// Advances cloth.x to rest. No NaN is ever written to it: a step that fails at the smallest time step ends the run
 /// with "step_too_small". Deterministic on any number of threads.

@@ -117,6 +117,10 @@ void StaticSystem::forces_and_matrix(const Positions& x, const Positions& v, con
   });
 }
 
+std::vector<TermEnergy> StaticSystem::energies(const Positions& x) const {
+  return {{"membrane", membrane_energy_sum(x)}, {"bending", bending_energy_sum(x)}};
+}
+
 double StaticSystem::membrane_energy_sum(const Positions& x) const {
   return deterministic_sum(static_cast<int>(membrane_.size()), 1024, [&](int begin, int end) {
     double sum = 0;

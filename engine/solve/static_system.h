@@ -4,6 +4,7 @@
 #include "engine/linear/block_matrix.h"
 #include "engine/linear/coloring.h"
 #include "engine/mesh/cloth.h"
+#include "engine/report.h"
 #include "engine/solve/trim_system.h"
 #include "engine/terms/bending.h"
 #include "engine/terms/membrane.h"
@@ -35,8 +36,9 @@ class StaticSystem {
   /// A matrix of the topology with zero values.
   BlockMatrix make_matrix() const;
 
-  double membrane_energy_sum(const Positions& x) const;  ///< [J]
-  double bending_energy_sum(const Positions& x) const;   ///< [J]
+  std::vector<TermEnergy> energies(const Positions& x) const;  ///< of every term, in the order of their lists
+  double membrane_energy_sum(const Positions& x) const;        ///< [J]
+  double bending_energy_sum(const Positions& x) const;         ///< [J]
 
  private:
   std::vector<int> order_, place_;
