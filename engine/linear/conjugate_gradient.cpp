@@ -28,7 +28,8 @@ void BlockJacobi::set(int row, const Eigen::Matrix3f& diagonal_block) {
 }
 
 CgOutcome ConjugateGradient::solve(const BlockMatrix& fixed, ContactMatrix& dynamic, const BlockJacobi& preconditioner,
-                                   const NodeVector& b, double tolerance, int most_iterations, NodeVector& x, RankOneMatrix* wide) {
+                                   const NodeVector& b, double tolerance, int most_iterations, NodeVector& x,
+                                   RankOneMatrix* wide) {
   const int rows = fixed.rows();
   x.resize(rows);
   residual_.resize(rows);

@@ -36,7 +36,8 @@ struct TrimHole {
 };
 
 /// A button on the right side of the cloth at its first hole, and the layers that its thread holds beneath it, in that
-/// order. Each layer is held by four springs around the hole (terms/attachment.h).
+/// order. It has no contact of its own with cloth or body: its layers have. Each layer is held by four springs around
+/// the hole (terms/attachment.h).
 struct Trim {
   Button button;
   std::vector<TrimHole> holes;  ///< at least one

@@ -189,6 +189,34 @@ TEST(ReadScene, ElasticsAndDrawcords) {
   EXPECT_DOUBLE_EQ(garment.drawcords[0].damping, 0.5);
 }
 
+TEST(ReadScene, Buttons) {
+  const Garment garment = garment_from(
+      R"({"rectangle": {"width_mm": 400, "height_mm": 300},
+          "trims": [{"button": {"diameter_mm": 20, "mass_g": 2}, "attach": [{"panel": "rectangle", "at_mm": [10, -20]}],
+                     "stiffness_N_m": 300}]})");
+  ASSERT_EQ(garment.trims.size(), 1u);
+  const Trim& trim = garment.trims[0];
+  EXPECT_DOUBLE_EQ(trim.button.diameter, 0.02);
+  EXPECT_DOUBLE_EQ(trim.button.thickness, Button{}.thickness);
+  EXPECT_DOUBLE_EQ(trim.button.mass, 2e-3);
+  ASSERT_EQ(trim.holes.size(), 1u);
+  EXPECT_EQ(trim.holes[0].panel, "rectangle");
+  EXPECT_LT((trim.holes[0].at - Vec2(0.01, -0.02)).norm(), 1e-15);
+  EXPECT_DOUBLE_EQ(trim.stiffness, 300);
+  EXPECT_DOUBLE_EQ(trim.damping, Trim{}.damping);
+}
+
+TEST(ReadScene, ASlidingPinHasItsFrictionOrTheBodys) {
+  const auto hold = [](const std::string& friction) {
+    const Job job = read(R"({"garments": [{"disc": {"radius_mm": 150}, "pins": [{"vertices": [0], "hold": "sliding")" +
+                         friction + R"(}]}], "body": {"sphere": {"radius_mm": 100}}})");
+    return std::get<PinAttached>(job.scene.garments[0].pins[0].hold);
+  };
+  EXPECT_TRUE(hold("").slides);
+  EXPECT_FALSE(hold("").friction.has_value());
+  EXPECT_DOUBLE_EQ(hold(R"(, "friction": 0.7)").friction.value(), 0.7);
+}
+
 TEST(ReadScene, Bodies) {
   EXPECT_DOUBLE_EQ(std::get<SphereBody>(body_from(R"({"sphere": {"radius_mm": 100}})").shape).radius, 0.1);
   const auto capsule = std::get<CapsuleBody>(

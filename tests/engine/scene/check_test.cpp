@@ -212,6 +212,19 @@ TEST(CheckScene, NamesWhatIsWrongWithFabricsBodiesPinsAndSolver) {
        [](Scene& s) {
          s.garments[0].drawcords = {{PinNearest{Vec3::Zero()}, 0.7, 100, 0}};
        }},
+      {"unknown_panel /garments/0/trims/0/attach/0/panel",
+       [](Scene& s) {
+         s.garments[0].trims = {{{}, {{"sleeve", Vec2::Zero()}}}};
+       }},
+      {"trim_value /garments/0/trims/0/attach", [](Scene& s) { s.garments[0].trims.resize(1); }},
+      {"trim_value /garments/0/trims/0/button",
+       [](Scene& s) {
+         s.garments[0].trims = {{{0.01, 0.002, 0}, {{"front", Vec2::Zero()}}}};
+       }},
+      {"pin_value /garments/0/pins/0/friction",
+       [&](Scene& s) {
+         pin(s) = {PinLabel{"lower_interface"}, PinAttached{true, -1}};
+       }},
       {"solver_value /solver/max_time_step_s", [](Scene& s) { s.solver.max_time_step = kNan; }},
       {"solver_value /solver/splitting_factor", [](Scene& s) { s.solver.splitting_factor = 1; }},
   };
