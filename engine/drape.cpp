@@ -5,6 +5,7 @@
 #include "engine/mesh/sewing.h"
 #include "engine/parallel/thread_limit.h"
 #include "engine/quality/measure.h"
+#include "engine/quality/mesh_bending.h"
 #include "engine/quality/stretch.h"
 #include "engine/scene/check.h"
 #include "engine/scene/problem.h"
@@ -151,6 +152,10 @@ Drape drape(const Scene& scene, Monitor& monitor) {
   check_scene(scene);
   stage("mesh", 0);
   Cloth apart = build_cloth(scene);
+  std::vector<char> given_as_mesh;
+  for (const Garment& garment : scene.garments)
+    given_as_mesh.push_back(std::holds_alternative<GarmentMesh>(garment.shape));
+  warn_of_mesh_bending(apart, given_as_mesh);
   stage("body", 0.01);
   const Bodies bodies = make_bodies(scene, apart);
   if (bodies.whole) check_size(apart, *bodies.whole);

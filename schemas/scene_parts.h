@@ -34,4 +34,7 @@ std::vector<Pin> attached_pins(const nlohmann::json& garment, const Pattern& pat
 /// One valid pin of a garment.
 Pin read_pin(const nlohmann::json& document, const Garment& garment, const std::string& pointer, bool on_body);
 
+/// One valid fold of a garment.
+Fold read_fold(const nlohmann::json& document, const Garment& garment, const std::string& pointer);
+
 }  // namespace toile

@@ -43,6 +43,7 @@ double check_garment(const Garment& garment, std::size_t index, bool has_body, s
     check_fabric(fabric, place, problems);
   }
   check_pins(garment, has_body, pointer + "/pins", problems);
+  check_folds(garment, pointer, problems);
   return vertices;
 }
 

@@ -16,6 +16,9 @@ void check_garment_mesh(const GarmentMesh& shape, const std::string& pointer, st
 
 void check_fabric(const Fabric& fabric, const std::string& pointer, std::vector<Problem>& problems);
 
+/// Seams and folds; `pointer` is the garment's.
+void check_folds(const Garment& garment, const std::string& pointer, std::vector<Problem>& problems);
+
 void check_body(const Body& body, std::vector<Problem>& problems);
 
 void check_pins(const Garment& garment, bool has_body, const std::string& pointer, std::vector<Problem>& problems);

@@ -44,6 +44,9 @@ struct PinAttached {};
 struct Pin {
   std::variant<PinVertices, PinEdge, PinLabel, PinBox, PinNearest> select;
   std::variant<PinFixed, PinMoved, PinAttached> hold;
+  /// Whether the tangent is held, too: along the mesh edges between its vertices the cloth leaves in the plane in which
+  /// it lies at the start of the drape. Without it, pinned vertices are a hinge.
+  bool clamp = false;
 };
 
 }  // namespace toile

@@ -22,6 +22,18 @@ struct GarmentMesh {
   std::vector<std::pair<int, int>> seams;
 };
 
+/// How a garment's seams bend: several layers lie in a seam.
+struct SeamBending {
+  double stiffness_factor = 1;  ///< of the cloth's own bending stiffness across the seam
+};
+
+/// Pressed in: a pleat's or a hem's fold, a seam ironed to one side.
+struct Fold {
+  std::variant<PinEdge, PinLabel, PinVertices> select;  ///< vertices: a chain of the garment's mesh, edge by edge
+  double angle = 0;                                     ///< at rest [rad]; positive: a ridge seen from the right side
+  double stiffness_factor = 1;                          ///< instead of the seam's, where the fold lies in one
+};
+
 struct Garment {
   std::string name;
   std::variant<Pattern, GarmentMesh> shape;
@@ -29,6 +41,8 @@ struct Garment {
   std::map<std::string, Fabric> panel_fabrics;  ///< by panel (group) name, instead of `fabric`
   double edge_length = 0.015;                   ///< target [m]; a mesh garment keeps its own
   std::vector<Pin> pins;
+  SeamBending seam_bending;
+  std::vector<Fold> folds;
 };
 
 /// The rung on the ladder of speed against accuracy. `preview` stops after the position-based solver.

@@ -229,6 +229,7 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
     state.x[order[i]] = x[i];
     state.v[order[i]] = v[i];
   }
+  s.system.advance_slip(x);
   advance_anchors(contacts, s.options.contact_stiffness, state.x);
   return outcome;
 }

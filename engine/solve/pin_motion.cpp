@@ -50,21 +50,25 @@ std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth
 
 std::vector<HeldVertex> held_vertices(const Scene& scene, const Cloth& sewn, const std::vector<int>& attached) {
   std::vector<HeldVertex> held;
-  std::set<int> taken;
+  std::set<int> taken, clamped;
   const auto hold = [&](int v, const PinMoved* motion) {
     if (taken.insert(v).second) held.push_back({v, sewn.x[v], motion});
   };
   for (std::size_t g = 0; g < scene.garments.size(); ++g)
     for (std::size_t p = 0; p < scene.garments[g].pins.size(); ++p) {
       const Pin& pin = scene.garments[g].pins[p];
-      if (std::holds_alternative<PinAttached>(pin.hold)) continue;
+      const bool on_body = std::holds_alternative<PinAttached>(pin.hold);
+      if (on_body && !pin.clamp) continue;
       const std::vector<int> vertices = pinned_vertices(pin, static_cast<int>(g), sewn);
+      if (pin.clamp) clamped.insert(vertices.begin(), vertices.end());
+      if (on_body) continue;
       if (vertices.empty())
         throw InputError("/garments/" + std::to_string(g) + "/pins/" + std::to_string(p), "pin_selects_nothing",
                          "the pin selects no vertex of the garment");
       for (int v : vertices) hold(v, std::get_if<PinMoved>(&pin.hold));
     }
   for (int v : attached) hold(v, nullptr);
+  for (HeldVertex& h : held) h.clamped = clamped.contains(h.vertex);
   std::sort(held.begin(), held.end(), [](const HeldVertex& a, const HeldVertex& b) { return a.vertex < b.vertex; });
   return held;
 }

@@ -5,6 +5,7 @@
 #include "engine/contact/proximity.h"
 #include "engine/monitor.h"
 #include "engine/solve/backward_euler.h"
+#include "engine/solve/clamps.h"
 #include "engine/solve/relaxation.h"
 #include "engine/solve/rest.h"
 #include "engine/solve/time_step.h"
@@ -23,11 +24,14 @@ constexpr double kListRadius = 5e-3;          // [m] at least: lets fine meshes 
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Finds what touches, and remembers friction from step to step.
+/// Finds what touches, and remembers friction from step to step. Positions may have more points than the cloth has
+/// vertices (clamps'), which touch nothing.
 class Touching {
  public:
   Touching(const Cloth& cloth, const SimulationScene& scene)
-      : proximity_(make_collision_mesh(cloth, scene.options.contact_distance), kListRadius), body_(scene.body) {
+      : proximity_(make_collision_mesh(cloth, scene.options.contact_distance), kListRadius),
+        body_(scene.body),
+        vertices_(static_cast<long>(cloth.x.size())) {
     double friction = 0;
     for (const Fabric& fabric : cloth.fabrics) friction = std::max(friction, fabric.friction_body);
     body_options_.friction = scene.body_friction >= 0 ? scene.body_friction : friction;
@@ -38,7 +42,8 @@ class Touching {
           std::max(body_options_.offset, default_body_offset(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
   }
 
-  std::vector<Contact> detect(const Positions& x) {
+  std::vector<Contact> detect(const Positions& points) {
+    const Positions x = vertices_of(points);
     proximity_.update(x);
     std::vector<Contact> contacts = proximity_.contacts();
     if (body_) {
@@ -51,14 +56,20 @@ class Touching {
 
   /// Cuts short the moves since detect() that could have crossed cloth; returns their number.
   long limit(const Positions& from, Positions& to) const {
-    return limit_displacements(from, proximity_.displacement_bounds(), to);
+    Positions moved = vertices_of(to);
+    const long limited = limit_displacements(vertices_of(from), proximity_.displacement_bounds(), moved);
+    std::copy(moved.begin(), moved.end(), to.begin());
+    return limited;
   }
 
   void remember(const std::vector<Contact>& contacts, const Positions& x) { memory_.store(contacts, x); }
 
  private:
+  Positions vertices_of(const Positions& points) const { return {points.begin(), points.begin() + vertices_}; }
+
   Proximity proximity_;
   const BodyField* body_;
+  long vertices_;
   BodyContactOptions body_options_;
   FrictionMemory memory_;
 };
@@ -87,16 +98,20 @@ double estimated_progress(const SimulationState& state, const SolverOptions& opt
 
 Simulation simulate(Cloth& cloth, const SimulationScene& scene, const SimulationProgress& progress) {
   const SolverOptions& options = scene.options;
-  const std::size_t n = cloth.x.size();
   Simulation result;
-  BackwardEuler solver(cloth, options);
   Touching touching(cloth, scene);
+  Cloth clamped = cloth;
+  std::vector<HeldVertex> held_points = scene.held;
+  const std::vector<HeldVertex> clamp_points = add_clamps(clamped, scene.held);
+  held_points.insert(held_points.end(), clamp_points.begin(), clamp_points.end());
+  BackwardEuler solver(clamped, options);
+  const std::size_t vertices = cloth.x.size(), n = clamped.x.size();
   TimeStep time_step(options);
   RestDetector rest(options);
   StepTimes step_times;
-  State state{cloth.x, Positions(n, Vec3::Zero())};
-  Kinematic kinematic{std::vector<char>(n, 0), cloth.x};
-  for (const HeldVertex& held : scene.held) kinematic.held[held.vertex] = 1;
+  State state{clamped.x, Positions(n, Vec3::Zero())};
+  Kinematic kinematic{std::vector<char>(n, 0), clamped.x};
+  for (const HeldVertex& held : held_points) kinematic.held[held.vertex] = 1;
   const double moving_until = std::max(last_key_frame(scene.held), options.relaxation_time);
 
   double t = 0, next_force_check = 0;
@@ -108,7 +123,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
     const double h = time_step.h();
     std::vector<Contact> contacts = touching.detect(state.x);
     result.times.collisions += seconds_since(begun);
-    for (const HeldVertex& held : scene.held) kinematic.target[held.vertex] = position_at(held, t + h);
+    for (const HeldVertex& held : held_points) kinematic.target[held.vertex] = position_at(held, t + h);
 
     const Positions before = state.x;
     const StepOutcome outcome = solver.step(state, h, relaxation_factor(t, options), contacts, kinematic, step_times);
@@ -152,7 +167,6 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
     if (!progress({t, kinetic, rest.percentile(), h, static_cast<long>(contacts.size()), &state.x})) throw Cancelled{};
   }
 
-  cloth.x = state.x;
   result.time = t;
   result.splits = time_step.splits();
   result.times.derivatives = step_times.derivatives;
@@ -164,6 +178,11 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   result.net_force = solver.static_forces(state.x, result.contacts);
   result.contact_force = solver.contact_forces(state.x, result.contacts);
   result.mass = solver.masses();
+  result.net_force.resize(vertices);
+  result.contact_force.resize(vertices);
+  result.mass.resize(vertices);
+  state.x.resize(vertices);
+  cloth.x = std::move(state.x);
   return result;
 }
 
