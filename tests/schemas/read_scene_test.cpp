@@ -244,8 +244,13 @@ TEST(Folds, AreReadWithSeamsAndClamps) {
   EXPECT_EQ(garment.folds[0].stiffness_factor, 2);
   ASSERT_EQ(garment.pins.size(), 1u);
   EXPECT_TRUE(garment.pins[0].clamp);
-  EXPECT_EQ(garment.fabric.bending_softening, (Directional{2.7e-3, 2.4e-3, 2.4e-3}));
-  EXPECT_EQ(garment.fabric.bending_hysteresis, (Directional{400e-6, 300e-6, 350e-6}));
+  const Directional &softening = garment.fabric.bending_softening, &loop = garment.fabric.bending_hysteresis;
+  EXPECT_DOUBLE_EQ(softening.warp, 2.7e-3);
+  EXPECT_DOUBLE_EQ(softening.weft, 2.4e-3);
+  EXPECT_DOUBLE_EQ(softening.bias, 2.4e-3);
+  EXPECT_DOUBLE_EQ(loop.warp, 400e-6);
+  EXPECT_DOUBLE_EQ(loop.weft, 300e-6);
+  EXPECT_DOUBLE_EQ(loop.bias, 350e-6);
   EXPECT_EQ(garment.fabric.bending_hysteresis_onset, 15);
   const Garment plain = garment_from(R"({"disc": {"radius_mm": 150}, "pins": [{"vertices": [0]}]})");
   EXPECT_FALSE(plain.pins[0].clamp);

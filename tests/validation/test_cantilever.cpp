@@ -83,6 +83,22 @@ TEST(CantileverReference, StripCutAtAnyAngleDropsAsFar) {
   EXPECT_LT(largest / least, 1.02);
 }
 
+TEST(CantileverReference, WarpAndWeftBendWithTheirOwnStiffness) {
+  SKIP_WITHOUT_REFERENCES();
+  const double d = bending_at(20, kDensity, StripScene{}.length);
+  for (const auto& [degrees, gamma] : {std::pair{0.0, 20.0}, {90.0, 5.0}}) {
+    StripScene scene;
+    scene.degrees = degrees;
+    HeldCloth strip = make_strip(scene, strip_fabric(kDensity, {4 * d, d, 2.5 * d}));
+    settle(strip);
+    const Vec3 tip = tip_of(strip) / scene.length;
+    const Elastica exact = elastica(gamma);
+    std::printf("%s: x %.5f (%.5f)  drop %.5f (%.5f)\n", degrees == 0 ? "weft" : "warp", tip.x(), exact.x, -tip.y(),
+                exact.drop);
+    EXPECT_LT(error_of(tip, exact), 0.01);
+  }
+}
+
 TEST(CantileverReference, PinnedRowWithoutAClampIsAHinge) {
   StripScene scene;
   scene.edge = scene.length / 10;
