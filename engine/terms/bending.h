@@ -15,7 +15,7 @@ namespace toile {
 /// Zorin 2006, "Computing discrete shape operators on general meshes", written in hinge angles). On an equilateral mesh
 /// and with Poisson's ratio −1/3 it is the hinge model ½ D l² θ² / (A₀ + A₁), which is what hinges alone can do: on the
 /// panel mesher's meshes those are off by 10 % with the direction, and have no warp and weft to speak of.
-/// At a free edge of the cloth, where a hinge is missing, no moment acts across the edge: that is the third equation.
+/// At an edge of the cloth, where a hinge is missing, the curvature is that of least energy: no moment across the edge.
 /// Dissipation potential [W]: R = ½ β θ̇ᵀ K θ̇, θ̇ = ∇θ·v [after Sánchez-Banderas & Otaduy 2018]. Velocity derivative:
 /// exact. Position derivative of the dissipative force: dropped (it is not symmetric, and of the order of the angles'
 /// change in a step relative to what is kept). Angles are those of the points, whatever the neighbours' winding, so a

@@ -152,6 +152,7 @@ struct Builder {
     std::array<Vec3, 3> rows;
     for (int c = 0; c < 3; ++c) {
       s.nodes[c] = s.nodes[3 + c] = v[c];
+      rows[c].setZero();
       const FlatEdge e = flat_edge(cloth.flat[t], c);
       const EdgeKey key = key_of(v[(c + 1) % 3], v[(c + 2) % 3]);
       const auto clamp = clamp_tip.find({t, c});
@@ -163,7 +164,6 @@ struct Builder {
         s.nodes[3 + c] = cloth.triangles[other][corner];
         rows[c] = hinge_row(e.along, e.across, e.length, e.wing, far_wing(t, c, e.length, across[t][c]));
       } else {
-        rows[c] = free_edge_row(e.across, e.wing, bending.stiffness);
         continue;
       }
       s.hinge[c] = true;

@@ -45,26 +45,33 @@ Vec3 clamped_hinge_row(const Vec2& along, const Vec2& across, double length, con
   return wing_row(along, across, length, near) + (near.foot - 0.5 * length) * component(across, along);
 }
 
-Vec3 free_edge_row(const Vec2& across, const Wing& near, const Mat3& stiffness) {
-  const Vec3 cylinder(across.x() * across.x(), across.y() * across.y(), 2 * across.x() * across.y());
-  return near.height / stiffness.norm() * stiffness * cylinder;
-}
-
-CurvatureFit fit_curvature(const std::array<Vec3, 3>& rows, const std::array<bool, 3>& hinge, const Mat3& stiffness,
+CurvatureFit fit_curvature(const std::array<Vec3, 3>& rows, const std::array<bool, 3>& present, const Mat3& stiffness,
                            double area) {
   // In the metric of tensors |κ|² = κ_uu² + κ_vv² + ½ (2 κ_uv)² a rotation of the pattern changes no singular value.
   const Vec3 metric(1, 1, std::sqrt(2.0));
+  std::array<int, 3> hinge{};
+  int count = 0;
+  for (int i = 0; i < 3; ++i)
+    if (present[i]) hinge[count++] = i;
   CurvatureFit result{Mat3::Zero(), Mat3::Zero()};
-  Eigen::MatrixXd b(3, 3);
-  for (int i = 0; i < 3; ++i) b.row(i) = rows[i].cwiseProduct(metric).transpose();
+  if (count == 0) return result;
+
+  Eigen::MatrixXd b(count, 3);
+  for (int i = 0; i < count; ++i) b.row(i) = rows[hinge[i]].cwiseProduct(metric).transpose();
   if (!b.allFinite()) return result;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(b, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Vec3 raised = svd.singularValues().cwiseMax(kFlattestFit * svd.singularValues()[0]);
-  result.fit = metric.asDiagonal() * svd.matrixV() * raised.cwiseInverse().asDiagonal() * svd.matrixU().transpose();
-  for (int i = 0; i < 3; ++i)
-    if (!hinge[i]) result.fit.col(i).setZero();
-  const Mat3 root = Eigen::LLT<Mat3>(stiffness).matrixU();
-  result.factor = std::sqrt(area) * root * result.fit;
+  const Eigen::VectorXd raised = svd.singularValues().cwiseMax(kFlattestFit * svd.singularValues()[0]);
+  if (raised != svd.singularValues()) b = svd.matrixU() * raised.asDiagonal() * svd.matrixV().transpose();
+  b *= metric.cwiseInverse().asDiagonal();
+
+  const Eigen::MatrixXd compliance = stiffness.llt().solve(b.transpose());  // D⁻¹ Bᵀ
+  const Eigen::MatrixXd k = area * (b * compliance).inverse();
+  const Eigen::MatrixXd fit = compliance * k / area;
+  const Eigen::MatrixXd factor = Eigen::LLT<Eigen::MatrixXd>(0.5 * (k + k.transpose())).matrixU();
+  for (int i = 0; i < count; ++i) {
+    result.fit.col(hinge[i]) = fit.col(i);
+    for (int j = 0; j < count; ++j) result.factor(j, hinge[i]) = factor(j, i);
+  }
   return result;
 }
 

@@ -32,21 +32,18 @@ Vec3 hinge_row(const Vec2& along, const Vec2& across, double length, const Wing&
 ///   θ = ½ h κ_nn + (s − l/2) κ_nt − ½ s (l − s)/h κ_tt
 Vec3 clamped_hinge_row(const Vec2& along, const Vec2& across, double length, const Wing& near);
 
-/// Row b with b · κ = 0 where no moment acts across a free edge: height · nᵀ M n / ‖D‖ with M = D κ [m].
-Vec3 free_edge_row(const Vec2& across, const Wing& near, const Mat3& stiffness);
-
-/// What the hinges' angles θ − θ₀ of a triangle say about its curvature, κ = fit · (θ − θ₀), and the quadratic form
-/// K = area · fitᵀ D fit = Fᵀ F of its energy ½ (θ − θ₀)ᵀ K (θ − θ₀).
+/// What the hinges' angles θ − θ₀ of a triangle say about its curvature: κ = fit · (θ − θ₀), of all curvatures that
+/// agree with the angles the one with the least bending energy (with three hinges there is one only), and the quadratic
+/// form K = area · fitᵀ D fit = area (B D⁻¹ Bᵀ)⁻¹ of its energy ½ (θ − θ₀)ᵀ K (θ − θ₀).
 struct CurvatureFit {
-  Mat3 fit;     ///< [1/m], column i belongs to hinge i; zero where there is none
-  Mat3 factor;  ///< F [√(N·m)]
+  Mat3 fit;     ///< [1/m], column i belongs to hinge i
+  Mat3 factor;  ///< F [√(N·m)] with K = Fᵀ F
 };
 
-/// `rows` B holds one row for each edge: of a hinge, a clamped hinge or a free edge (`hinge` false). fit = B⁻¹ without
-/// the columns of free edges. D positive definite. Near a conic through all six vertices the angles say little about
-/// some curvature; singular values of B below a fifth of the largest are raised to that, so that such triangles do not
-/// lock. A triangle or neighbour of no area has no fit and no stiffness.
-CurvatureFit fit_curvature(const std::array<Vec3, 3>& rows, const std::array<bool, 3>& hinge, const Mat3& stiffness,
+/// `rows` holds the hinges' rows, of which those with `present` count; D positive definite. Near a conic through all
+/// six vertices the angles say little about some curvature; singular values of B below a fifth of the largest are
+/// raised to that, so that such triangles do not lock.
+CurvatureFit fit_curvature(const std::array<Vec3, 3>& rows, const std::array<bool, 3>& present, const Mat3& stiffness,
                            double area);
 
 }  // namespace toile
