@@ -42,7 +42,7 @@ struct CurvatureFit {
 
 /// `rows` holds the hinges' rows, of which those with `present` count; D positive definite. Near a conic through all
 /// six vertices the angles say little about some curvature; singular values of B below a fifth of the largest are
-/// raised to that, so that such triangles do not lock.
+/// raised to that, so that such triangles do not lock. A triangle or neighbour of no area has no fit and no stiffness.
 CurvatureFit fit_curvature(const std::array<Vec3, 3>& rows, const std::array<bool, 3>& present, const Mat3& stiffness,
                            double area);
 
