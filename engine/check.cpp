@@ -6,6 +6,7 @@
 #include "engine/parallel/thread_limit.h"
 #include "engine/quality/admissible_contact.h"
 #include "engine/quality/measure.h"
+#include "engine/quality/mesh_bending.h"
 #include "engine/quality/warnings.h"
 #include "engine/scene/check.h"
 #include "engine/solve/still_cloth.h"
@@ -31,9 +32,9 @@ std::vector<int> attached_vertices(const Scene& scene, const Cloth& sewn) {
 
 }  // namespace
 
-std::vector<double> measure_equilibrium(const Cloth& sewn, const SimulationScene& scene, const CheckOptions& options,
-                                        Report& report) {
-  const StillCloth still = still_cloth(sewn, scene);
+std::vector<double> measure_equilibrium(const Cloth& sewn, const Positions& start, const SimulationScene& scene,
+                                        const CheckOptions& options, Report& report) {
+  const StillCloth still = still_cloth(sewn, start, scene);
   report.energies = still.energies;
   measure_contacts(sewn, still.contacts, still.cloth_contacts, scene.options.contact_stiffness, Friction::unknown,
                    report);
@@ -61,7 +62,8 @@ std::vector<double> measure_equilibrium(const Cloth& sewn, const SimulationScene
 Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& options) {
   const ThreadLimit threads(scene.solver.threads);
   check_scene(scene);
-  const Cloth apart = build_cloth(scene);
+  Cloth apart = build_cloth(scene);
+  warn_of_mesh_bending(apart, given_as_mesh(scene));
   MatchedCloth matched = match_mesh(apart, mesh);
   Cloth at_start = apart;
   const std::vector<int> old_to_new = merge_seams(at_start);
@@ -78,7 +80,7 @@ Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& o
   if (!trimmings.trims.empty()) {
     trimmings.trims.clear();
     trimmings.attachments.clear();
-    report.warnings.push_back("trims are not judged: a mesh does not say where they are");
+    report.warnings.emplace_back("trims are not judged: a mesh does not say where they are");
   }
   const SimulationScene still{scene.solver,
                               body ? &*body : nullptr,
@@ -87,7 +89,7 @@ Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& o
                               scene.friction_pairs,
                               sliding,
                               std::move(trimmings)};
-  const std::vector<double> contact_distance = measure_equilibrium(matched.cloth, still, options, report);
+  const std::vector<double> contact_distance = measure_equilibrium(matched.cloth, at_start.x, still, options, report);
   measure_geometry(matched.cloth, still.body, report);
   add_warnings(matched.cloth, contact_distance, report);
   const double at_rest = scene.solver.rest_residual > 0 ? scene.solver.rest_residual : kAtRest;

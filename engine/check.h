@@ -28,9 +28,10 @@ struct CheckOptions {
 /// where that is 0) and no seam gapes by 1 mm. Throws InputError: the scene's problems, and `mesh_mismatch` at "".
 Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& options = {});
 
-/// Its part about forces, of a sewn cloth at its positions: energies, contacts, discretisation error, residual. Returns
-/// where cloth repels cloth, per vertex [m].
-std::vector<double> measure_equilibrium(const Cloth& sewn, const SimulationScene& scene, const CheckOptions& options,
-                                        Report& report);
+/// Its part about forces, of a sewn cloth at its positions, which was at `start` as the drape began
+/// (solve/still_cloth.h): energies, contacts, discretisation error, residual. Returns where cloth repels cloth, per
+/// vertex [m].
+std::vector<double> measure_equilibrium(const Cloth& sewn, const Positions& start, const SimulationScene& scene,
+                                        const CheckOptions& options, Report& report);
 
 }  // namespace toile

@@ -5,6 +5,7 @@
 #include "engine/mesh/sewing.h"
 #include "engine/parallel/thread_limit.h"
 #include "engine/quality/measure.h"
+#include "engine/quality/mesh_bending.h"
 #include "engine/quality/stretch.h"
 #include "engine/quality/warnings.h"
 #include "engine/scene/check.h"
@@ -165,6 +166,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
   check_scene(scene);
   stage("mesh", 0);
   Cloth apart = build_cloth(scene);
+  warn_of_mesh_bending(apart, given_as_mesh(scene));
   stage("body", 0.01);
   const Bodies bodies = make_bodies(scene, apart);
   if (bodies.whole) check_size(apart, *bodies.whole);
@@ -197,6 +199,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
     for (const std::string& seam : assembly.open_seams) report.warnings.push_back("seam did not close: " + seam);
   } else if (scene.fidelity == Fidelity::preview) {
     const std::vector<HeldVertex> held = held_vertices(scene, result.cloth, assembly.attached);
+    const Positions start = result.cloth.x;
     const PreviewOutcome outcome =
         settle_preview(scene, result.cloth, bodies.fields().whole, held, [&](double fraction, long contacts) {
           return reporter({"drape", 0, 0, contacts, kAssembled + (kDraped - kAssembled) * fraction});
@@ -205,7 +208,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
     report.stop_reason = outcome.at_rest ? "at_rest" : "time_limit";
     report.status = outcome.at_rest ? "converged" : "not_converged";
     report.time.drape = seconds_since(started) - report.time.assemble;
-    contact_distance = measure_equilibrium(result.cloth,
+    contact_distance = measure_equilibrium(result.cloth, start,
                                            {options_of(scene),
                                             bodies.fields().whole,
                                             scene.body ? scene.body->friction.value_or(-1) : 0.0,

@@ -44,6 +44,11 @@ Fabric from_complete(const json& document, const std::string& pointer) {
   fabric.poisson_stiffness = document.at("poisson_ratio").get<double>() *
                              std::sqrt(fabric.stretch_stiffness.warp * fabric.stretch_stiffness.weft);
   fabric.bending_stiffness = directional(document.at("bending_uN_m"), 1e-6);
+  if (const auto softening = document.find("bending_softening_mm"); softening != document.end())
+    fabric.bending_softening = directional(*softening, 1e-3);
+  if (const auto loop = document.find("bending_hysteresis_uN"); loop != document.end())
+    fabric.bending_hysteresis = directional(*loop, 1e-6);
+  fabric.bending_hysteresis_onset = document.value("bending_hysteresis_onset_per_m", fabric.bending_hysteresis_onset);
   fabric.thickness = document.at("thickness_mm").get<double>() * 1e-3;
   fabric.friction_cloth = document.at("friction_cloth").get<double>();
   fabric.friction_body = document.at("friction_body").get<double>();

@@ -137,6 +137,10 @@ Garment read_garment(const json& document, const std::string& pointer, const Res
   for (std::size_t k = 0; k < pins.size(); ++k) {
     garment.pins.push_back(read_pin(pins[k], garment, child(child(pointer, "pins"), k), on_body));
   }
+  garment.seam_bending.stiffness_factor = document.value("seams", json::object()).value("bending_factor", 1.0);
+  const json folds = document.value("folds", json::array());
+  for (std::size_t k = 0; k < folds.size(); ++k)
+    garment.folds.push_back(read_fold(folds[k], garment, child(child(pointer, "folds"), k)));
   read_trims(document, pointer, garment);
   if (const auto* pattern = std::get_if<Pattern>(&garment.shape)) {
     for (Pin& pin : attached_pins(document, *pattern, pointer, on_body)) garment.pins.push_back(std::move(pin));

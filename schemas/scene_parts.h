@@ -40,4 +40,7 @@ void read_trims(const nlohmann::json& document, const std::string& pointer, Garm
 /// One valid pin of a garment.
 Pin read_pin(const nlohmann::json& document, const Garment& garment, const std::string& pointer, bool on_body);
 
+/// One valid fold of a garment.
+Fold read_fold(const nlohmann::json& document, const Garment& garment, const std::string& pointer);
+
 }  // namespace toile

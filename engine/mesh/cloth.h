@@ -29,6 +29,21 @@ struct LabelledVertices {
   std::vector<int> vertices;  ///< in order along the edge
 };
 
+/// A triangle's edge opposite to its `corner`, between two held vertices, across which the tangent is prescribed: there
+/// the triangle continues the plane through the edge and `tip`, a held vertex on the far side. A triangle across the
+/// edge with that tip is what holds, and does not bend.
+struct ClampedEdge {
+  int triangle, corner, tip;
+};
+
+/// An edge of the mesh that is not flat at rest, or not as stiff as the cloth: a pressed fold, a seam. The rest angle
+/// is positive where the edge is a ridge seen from the right side of the triangle with the smaller index.
+struct Crease {
+  int v0, v1;
+  double rest_angle = 0;        ///< [rad]
+  double stiffness_factor = 1;  ///< of the hinge's bending stiffness
+};
+
 /// Before sewing, panels are apart and seam_pairs lists what is to be joined; merge_seams() (mesh/sewing.h) makes one
 /// vertex of each joined set and leaves seam_pairs empty. A vertex then has one position and, through the triangles
 /// around it, a flat position per panel.
@@ -44,6 +59,8 @@ struct Cloth {
   std::vector<SeamPair> seam_pairs;
   std::vector<std::string> seam_names;  ///< "panelA/3 – panelB/5"
   std::vector<LabelledVertices> labels;
+  std::vector<ClampedEdge> clamps;
+  std::vector<Crease> creases;
   std::vector<std::string> warnings;  ///< said once each, for the report
 };
 

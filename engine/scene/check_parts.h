@@ -18,6 +18,9 @@ void check_fabric(const Fabric& fabric, const std::string& pointer, std::vector<
 
 void check_friction_pairs(const Scene& scene, std::vector<Problem>& problems);
 
+/// Seams and folds; `pointer` is the garment's.
+void check_folds(const Garment& garment, const std::string& pointer, std::vector<Problem>& problems);
+
 void check_body(const Body& body, std::vector<Problem>& problems);
 
 /// Whether what is selected exists, of a pin or of anything that selects in the same way, at the pointer.

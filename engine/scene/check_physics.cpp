@@ -116,6 +116,12 @@ void check_fabric(const Fabric& fabric, const std::string& pointer, std::vector<
           "A stress curve must rise, and the stretch stiffness be its tangent at rest.");
   require(within(bending.warp, 0, 10) && within(bending.weft, 0, 10) && within(bending.bias, 0, 10),
           "The bending stiffnesses must not be negative.");
+  const Directional &softening = fabric.bending_softening, &loop = fabric.bending_hysteresis;
+  require(within(softening.warp, 0, 0.1) && within(softening.weft, 0, 0.1) && within(softening.bias, 0, 0.1),
+          "The softening of bending must be 0 to 100 mm.");
+  require(within(loop.warp, 0, 10) && within(loop.weft, 0, 10) && within(loop.bias, 0, 10) &&
+              within(fabric.bending_hysteresis_onset, 1e-3, 1e5),
+          "The hysteresis of bending must not be negative, and its onset must be positive.");
   require(within(fabric.thickness, 0, 0.1), "The thickness must be 0 to 100 mm.");
   require(within(fabric.friction_cloth, 0, 10) && within(fabric.friction_body, 0, 10),
           "The coefficients of friction must be 0 to 10.");
@@ -146,6 +152,31 @@ void check_friction_pairs(const Scene& scene, std::vector<Problem>& problems) {
       problems.push_back({here + "/between/1", "friction_without_body", "There is no body."});
     if (!within(pair.coefficient, 0, 10))
       problems.push_back({here + "/coefficient", "friction_value", "The coefficient of friction must be 0 to 10."});
+  }
+}
+
+void check_folds(const Garment& garment, const std::string& pointer, std::vector<Problem>& problems) {
+  if (!within(garment.seam_bending.stiffness_factor, 1e-3, 1e4)) {
+    problems.push_back({pointer + "/seams/bending_factor", "fold_value", "The factor must be positive, up to 10000."});
+  }
+  for (std::size_t f = 0; f < garment.folds.size(); ++f) {
+    const Fold& fold = garment.folds[f];
+    const std::string here = pointer + "/folds/" + std::to_string(f);
+    if (const auto* label = std::get_if<PinLabel>(&fold.select); label && !has_label(garment, label->label)) {
+      problems.push_back({here + "/label", "unknown_label", "No edge is labelled \"" + label->label + "\"."});
+    }
+    if (const auto* edge = std::get_if<PinEdge>(&fold.select); edge && !has_edge(garment, *edge)) {
+      problems.push_back({here + "/edge", "unknown_edge", "The garment has no such panel edge."});
+    }
+    if (const auto* list = std::get_if<PinVertices>(&fold.select);
+        list && (std::holds_alternative<Pattern>(garment.shape) || list->vertices.size() < 2 ||
+                 std::any_of(list->vertices.begin(), list->vertices.end(), [](int v) { return v < 0; }))) {
+      problems.push_back(
+          {here + "/vertices", "vertex_out_of_range", "A chain of vertices of a mesh garment is needed."});
+    }
+    if (!within(std::abs(fold.angle), 0, 3.1416) || !within(fold.stiffness_factor, 1e-3, 1e4)) {
+      problems.push_back({here, "fold_value", "The angle must be at most 180° and the factor positive, up to 10000."});
+    }
   }
 }
 
@@ -187,6 +218,9 @@ void check_pins(const Garment& garment, bool has_body, const std::string& pointe
     if (const auto* attached = std::get_if<PinAttached>(&pin.hold);
         attached && attached->friction && !within(*attached->friction, 0, 10)) {
       problems.push_back({here + "/friction", "pin_value", "The coefficient of friction must be 0 to 10."});
+    }
+    if (const auto* attached = std::get_if<PinAttached>(&pin.hold); attached && attached->slides && pin.clamp) {
+      problems.push_back({here + "/clamp", "clamp_of_sliding", "What slides has no tangent to be held."});
     }
     const auto* moved = std::get_if<PinMoved>(&pin.hold);
     if (!moved) continue;

@@ -51,6 +51,9 @@ using Selection = std::variant<PinVertices, PinEdge, PinLabel, PinBox, PinNeares
 struct Pin {
   Selection select;
   std::variant<PinFixed, PinMoved, PinAttached> hold;
+  /// Whether the tangent is held, too: along the mesh edges between its vertices the cloth leaves in the plane in which
+  /// it lies at the start of the drape. Without it, pinned vertices are a hinge.
+  bool clamp = false;
 };
 
 }  // namespace toile

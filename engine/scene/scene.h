@@ -25,6 +25,18 @@ struct GarmentMesh {
   std::vector<std::pair<int, int>> seams;
 };
 
+/// How a garment's seams bend: several layers lie in a seam.
+struct SeamBending {
+  double stiffness_factor = 1;  ///< of the cloth's own bending stiffness across the seam
+};
+
+/// Pressed in: a pleat's or a hem's fold, a seam ironed to one side.
+struct Fold {
+  std::variant<PinEdge, PinLabel, PinVertices> select;  ///< vertices: a chain of the garment's mesh, edge by edge
+  double angle = 0;                                     ///< at rest [rad]; positive: a ridge seen from the right side
+  double stiffness_factor = 1;                          ///< instead of the seam's, where the fold lies in one
+};
+
 struct Garment {
   std::string name;
   std::variant<Pattern, GarmentMesh> shape;
@@ -35,6 +47,8 @@ struct Garment {
   std::map<std::string, double> panel_grain;  ///< by panel (group) name, instead of `grain` [rad]
   double edge_length = 0.015;                 ///< target [m]; a mesh garment keeps its own
   std::vector<Pin> pins;
+  SeamBending seam_bending;
+  std::vector<Fold> folds;
   std::vector<Elastic> elastics;
   std::vector<Drawcord> drawcords;
   std::vector<Trim> trims;
@@ -51,6 +65,13 @@ struct Scene {
   Fidelity fidelity = Fidelity::standard;
   SolverOptions solver;
 };
+
+/// Per garment, whether it came as a mesh and not as a pattern.
+inline std::vector<char> given_as_mesh(const Scene& scene) {
+  std::vector<char> given;
+  for (const Garment& garment : scene.garments) given.push_back(std::holds_alternative<GarmentMesh>(garment.shape));
+  return given;
+}
 
 /// Of its garments [m]; at most 0.1.
 inline double smallest_edge_length(const Scene& scene) {

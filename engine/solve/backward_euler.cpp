@@ -267,6 +267,7 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
     state.v[order[i]] = v[i];
   }
   state.trims = s.system.trims().states(x, v);
+  s.system.advance_slip(x);
   advance_anchors(contacts, s.options.contact_stiffness, state.x);
   return outcome;
 }
@@ -299,12 +300,21 @@ Energies BackwardEuler::energies(const State& state, const std::vector<Contact>&
   return e;
 }
 
-std::vector<TermEnergy> BackwardEuler::energies_by_term(const Positions& x) const {
+std::vector<TermEnergy> BackwardEuler::energies_by_term(const Positions& x,
+                                                        const std::vector<RigidState>& trim_states) const {
   const Implementation& s = *implementation_;
-  std::vector<TermEnergy> energies = s.system.energies(permuted(x, s.system.order()));
+  const Positions nodes = permuted(x, s.system.order());
+  std::vector<TermEnergy> energies = s.system.energies(nodes);
   double gravity = 0;
   if (s.options.gravity)
     for (std::size_t v = 0; v < x.size(); ++v) gravity += gravity_energy(masses()[v], x[v]);
+  if (s.tension.any()) energies.push_back({"tension", s.tension.energy(nodes)});
+  if (!trim_states.empty()) {
+    const auto [trims, all_nodes, still] = s.with_trims(nodes, Positions(nodes.size(), Vec3::Zero()), trim_states);
+    energies.push_back({"attachment", trims.energy(all_nodes)});
+    for (int t = 0; t < trims.trims() && s.options.gravity; ++t)
+      gravity += gravity_energy(trims.bodies()[t].mass, trim_states[t].center);
+  }
   energies.push_back({"gravity", gravity});
   return energies;
 }

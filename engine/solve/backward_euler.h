@@ -70,8 +70,9 @@ class BackwardEuler {
 
   const std::vector<double>& masses() const;  ///< lumped, per vertex [kg]
   Energies energies(const State& state, const std::vector<Contact>& contacts) const;
-  /// What each static term and gravity store at these positions; a new term of StaticSystem is in it by itself.
-  std::vector<TermEnergy> energies_by_term(const Positions& x) const;
+  /// What each static term and gravity store at these positions; a new term of StaticSystem is in it by itself. Where
+  /// there are elastics, drawcords or trims, `tension` and `attachment` follow, and gravity has the trims' share.
+  std::vector<TermEnergy> energies_by_term(const Positions& x, const std::vector<RigidState>& trims = {}) const;
   std::vector<double> kinetic_energy(const State& state) const;  ///< per vertex, then per trim [J]
   /// Net force of all terms at rest, gravity and contacts (with friction) included, on every vertex, held ones too [N].
   /// Those of the trims follow, two each: the force on the centre [N], and the torque over RigidBody::gyration [N].

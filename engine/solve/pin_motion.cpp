@@ -77,7 +77,7 @@ std::vector<SlidingVertex> sliding_vertices(const Scene& scene, const Cloth& apa
 std::vector<HeldVertex> held_vertices(const Scene& scene, const Cloth& sewn, const std::vector<int>& attached,
                                       const std::vector<SlidingVertex>& sliding) {
   std::vector<HeldVertex> held;
-  std::set<int> taken;
+  std::set<int> taken, clamped;
   const auto hold = [&](int v, const PinMoved* motion) {
     if (taken.insert(v).second) held.push_back({v, sewn.x[v], motion});
   };
@@ -86,8 +86,11 @@ std::vector<HeldVertex> held_vertices(const Scene& scene, const Cloth& sewn, con
       const Pin& pin = scene.garments[g].pins[p];
       const auto* fastened = std::get_if<PinAttached>(&pin.hold);
       // Assembly knows all others by their numbers before sewing.
-      if (fastened && (fastened->slides || !std::holds_alternative<PinVertices>(pin.select))) continue;
+      const bool by_assembly = fastened && (fastened->slides || !std::holds_alternative<PinVertices>(pin.select));
+      if (by_assembly && !pin.clamp) continue;
       const std::vector<int> vertices = pinned_vertices(pin, static_cast<int>(g), sewn);
+      if (pin.clamp) clamped.insert(vertices.begin(), vertices.end());
+      if (by_assembly) continue;
       if (vertices.empty())
         throw InputError("/garments/" + std::to_string(g) + "/pins/" + std::to_string(p), "pin_selects_nothing",
                          "the pin selects no vertex of the garment");
@@ -97,6 +100,7 @@ std::vector<HeldVertex> held_vertices(const Scene& scene, const Cloth& sewn, con
   for (const SlidingVertex& s : sliding) slides.insert(s.vertex);
   for (int v : attached)
     if (!slides.contains(v)) hold(v, nullptr);
+  for (HeldVertex& h : held) h.clamped = clamped.contains(h.vertex);
   std::sort(held.begin(), held.end(), [](const HeldVertex& a, const HeldVertex& b) { return a.vertex < b.vertex; });
   return held;
 }

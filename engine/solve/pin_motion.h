@@ -24,6 +24,7 @@ struct HeldVertex {
   int vertex;
   Vec3 start;
   const PinMoved* motion;  ///< points into the scene; null: fixed
+  bool clamped = false;    ///< the tangent is held, too (solve/clamps.h)
 };
 
 /// Every vertex that the scene's pins hold; where two pins hold one vertex, the first pin's motion counts. `attached`

@@ -2,6 +2,7 @@
 
 #include "engine/monitor.h"
 #include "engine/solve/backward_euler.h"
+#include "engine/solve/clamps.h"
 #include "engine/solve/relaxation.h"
 #include "engine/solve/rest.h"
 #include "engine/solve/time_step.h"
@@ -61,29 +62,33 @@ TouchingOptions touching_options(const SimulationScene& scene) {
 
 Simulation simulate(Cloth& cloth, const SimulationScene& scene, const SimulationProgress& progress) {
   const SolverOptions& options = scene.options;
-  const std::size_t n = cloth.x.size();
   Simulation result;
-  BackwardEuler solver(cloth, options, scene.trimmings);
   Touching touching(cloth, touching_options(scene));
+  Cloth clamped = cloth;
+  std::vector<HeldVertex> held_points = scene.held;
+  const std::vector<HeldVertex> clamp_points = add_clamps(clamped, scene.held);
+  held_points.insert(held_points.end(), clamp_points.begin(), clamp_points.end());
+  BackwardEuler solver(clamped, options, scene.trimmings);
+  const std::size_t vertices = cloth.x.size(), n = clamped.x.size();
   TimeStep time_step(options);
   RestDetector rest(options);
   StepTimes step_times;
-  State state{cloth.x, Positions(n, Vec3::Zero()), {}};
+  State state{clamped.x, Positions(n, Vec3::Zero()), {}};
   for (const RigidTrim& trim : scene.trimmings.trims) state.trims.push_back(trim.start);
-  Kinematic kinematic{std::vector<char>(n, 0), cloth.x};
-  for (const HeldVertex& held : scene.held) kinematic.held[held.vertex] = 1;
+  Kinematic kinematic{std::vector<char>(n, 0), clamped.x};
+  for (const HeldVertex& held : held_points) kinematic.held[held.vertex] = 1;
   const double moving_until = std::max(last_key_frame(scene.held), options.relaxation_time);
 
   double t = 0, next_force_check = 0;
   bool balanced = false;
-  std::vector<double> energy(n, 0.0);
+  std::vector<double> energy(vertices, 0.0);
   result.stop_reason = "time_limit";
   while (t < options.simulated_time_limit) {
     const Clock::time_point begun = Clock::now();
     const double h = time_step.h();
     std::vector<Contact> contacts = touching.detect(state.x);
     result.times.collisions += seconds_since(begun);
-    for (const HeldVertex& held : scene.held) kinematic.target[held.vertex] = position_at(held, t + h);
+    for (const HeldVertex& held : held_points) kinematic.target[held.vertex] = position_at(held, t + h);
 
     const Positions before = state.x;
     const std::vector<RigidState> trims_before = state.trims;
@@ -101,9 +106,11 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
       ++result.steps;
       time_step.accepted();
       energy = solver.kinetic_energy(state);
+      const auto first_clamp = energy.begin() + static_cast<std::ptrdiff_t>(vertices);
+      energy.erase(first_clamp, first_clamp + static_cast<std::ptrdiff_t>(n - vertices));
       bool quiet = rest.update(energy, h);
       // A trim is one node among thousands, but its swing is not noise: each has to be at rest.
-      if (std::any_of(energy.begin() + static_cast<std::ptrdiff_t>(n), energy.end(),
+      if (std::any_of(energy.begin() + static_cast<std::ptrdiff_t>(vertices), energy.end(),
                       [&](double e) { return e >= options.rest_kinetic_energy; })) {
         rest.reset();
         quiet = false;
@@ -135,7 +142,6 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
     if (!progress({t, kinetic, rest.percentile(), h, static_cast<long>(contacts.size()), &state.x})) throw Cancelled{};
   }
 
-  cloth.x = state.x;
   result.time = t;
   result.splits = time_step.splits();
   result.times.derivatives = step_times.derivatives;
@@ -145,13 +151,17 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   for (double e : energy) result.kinetic_energy += e;
   result.contacts = touching.detect(state.x);
   result.net_force = solver.static_forces(state.x, result.contacts, state.trims);
-  result.net_force.resize(n);
   result.trims = state.trims;
   result.contact_force = solver.contact_forces(state.x, result.contacts);
   result.mass = solver.masses();
-  result.energies = solver.energies_by_term(state.x);
+  result.energies = solver.energies_by_term(state.x, state.trims);
   result.cloth_contacts = touching.cloth_contacts();
   result.contact_distance = touching.contact_distance();
+  result.net_force.resize(vertices);
+  result.contact_force.resize(vertices);
+  result.mass.resize(vertices);
+  state.x.resize(vertices);
+  cloth.x = std::move(state.x);
   return result;
 }
 

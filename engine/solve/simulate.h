@@ -9,6 +9,7 @@
 #include "engine/scene/solver_options.h"
 #include "engine/solve/pin_motion.h"
 #include "engine/solve/touching.h"
+#include "engine/solve/trimmings.h"
 
 #include <functional>
 #include <string>
@@ -22,7 +23,7 @@ struct SimulationState {
   double nodal_energy_p99 = 0;  ///< [J]
   double step = 0;              ///< h [s]
   long contacts = 0;
-  const Positions* x = nullptr;
+  const Positions* x = nullptr;  ///< of the cloth's vertices, and of clamps' points behind them
 };
 /// A guess at the share done, 0 to 1: most drapes are at rest after one to three simulated seconds, so time counts as
 /// t/(t + 1 s); it is 1 at the limit.

@@ -38,16 +38,21 @@ class StaticSystem {
 
   std::vector<TermEnergy> energies(const Positions& x) const;  ///< of every term, in the order of their lists
   double membrane_energy_sum(const Positions& x) const;        ///< [J]
-  double bending_energy_sum(const Positions& x) const;         ///< [J]
+  double bending_energy_sum(const Positions& x) const;         ///< [J], of bending friction what it gives back
+
+  /// Lets bending friction slide as far as it did in a step that ended at x.
+  void advance_slip(const Positions& x);
 
  private:
+  const BendingLaw* law_of(int stencil) const { return bending_.laws.empty() ? nullptr : &bending_.laws[stencil]; }
+
   std::vector<int> order_, place_;
   std::vector<double> mass_;
   std::vector<MembraneStencil> membrane_;  ///< in coloured order, nodes in the solver's order
-  std::vector<BendingStencil> bending_;
+  BendingStencils bending_;
   ColoredStencils membrane_colors_, bending_colors_;
   std::vector<std::array<int, 6>> membrane_slots_;  ///< (0,1) (0,2) (1,2) and their mirrors
-  std::vector<std::array<int, 16>> bending_slots_;
+  std::vector<std::array<int, 36>> bending_slots_;
   TrimSystem trims_;
   BlockMatrix topology_;
 };

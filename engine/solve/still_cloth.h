@@ -15,7 +15,9 @@ struct StillCloth {
   std::vector<TermEnergy> energies;
 };
 
-/// Of a sewn cloth at its positions, with the terms, options and body of a simulation.
-StillCloth still_cloth(const Cloth& cloth, const SimulationScene& scene);
+/// Of a sewn cloth at its positions, with the terms, options and body of a simulation. `start`: where its vertices were
+/// at the start of the drape, whose planes clamps hold (solve/clamps.h), where key frames leave them. What rubs as it
+/// bends counts as bent in one go from its rest shape.
+StillCloth still_cloth(const Cloth& cloth, const Positions& start, const SimulationScene& scene);
 
 }  // namespace toile

@@ -21,6 +21,7 @@ class TensionSystem {
   /// Null without drawcords.
   RankOneMatrix* wide() { return cords_.empty() ? nullptr : &wide_; }
 
+  bool any() const { return !elastics_.empty() || !cords_.empty(); }
   double energy(const Positions& x) const;  ///< [J]
 
  private:

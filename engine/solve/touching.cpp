@@ -16,12 +16,16 @@ CollisionMesh mesh_of(const Cloth& cloth, const TouchingOptions& options) {
 }  // namespace
 
 Touching::Touching(const Cloth& cloth, const TouchingOptions& options)
-    : proximity_(mesh_of(cloth, options), kListRadius), body_(options.body), sliding_(options.sliding) {
+    : proximity_(mesh_of(cloth, options), kListRadius),
+      vertices_(static_cast<std::ptrdiff_t>(cloth.x.size())),
+      body_(options.body),
+      sliding_(options.sliding) {
   body_options_.offset = options.body_offset;
   body_options_.friction = -1;
 }
 
-std::vector<Contact> Touching::detect(const Positions& x) {
+std::vector<Contact> Touching::detect(const Positions& points) {
+  const Positions x = vertices_of(points);
   proximity_.update(x);
   std::vector<Contact> contacts = proximity_.contacts();
   if (body_) {
@@ -34,7 +38,10 @@ std::vector<Contact> Touching::detect(const Positions& x) {
 }
 
 long Touching::limit(const Positions& from, Positions& to) const {
-  return limit_displacements(from, proximity_.displacement_bounds(), to);
+  Positions moved = vertices_of(to);
+  const long limited = limit_displacements(vertices_of(from), proximity_.displacement_bounds(), moved);
+  std::copy(moved.begin(), moved.end(), to.begin());
+  return limited;
 }
 
 std::vector<double> Touching::contact_distance() const {

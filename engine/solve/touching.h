@@ -24,11 +24,12 @@ struct TouchingOptions {
 
 class Touching {
  public:
+  /// Positions may have more points than this cloth has vertices (clamps'), behind them; these touch nothing.
   Touching(const Cloth& cloth, const TouchingOptions& options);
 
   /// Contacts nearer than their distances at positions x, those of the cloth first, in a fixed order. Friction anchors
   /// are where remember() left them; without it, friction is unloaded.
-  std::vector<Contact> detect(const Positions& x);
+  std::vector<Contact> detect(const Positions& points);
 
   /// Cuts short the moves since detect() that could have crossed cloth; returns their number.
   long limit(const Positions& from, Positions& to) const;
@@ -42,7 +43,10 @@ class Touching {
   std::size_t cloth_contacts() const { return proximity_.contacts().size(); }
 
  private:
+  Positions vertices_of(const Positions& points) const { return {points.begin(), points.begin() + vertices_}; }
+
   Proximity proximity_;
+  std::ptrdiff_t vertices_;
   const BodyField* body_;
   std::vector<SlidingVertex> sliding_;
   BodyContactOptions body_options_;

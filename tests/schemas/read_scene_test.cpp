@@ -347,6 +347,32 @@ INSTANTIATE_TEST_SUITE_P(Specs, Attachments,
                                            Attachment{"repo_shirt_mean", {}}),
                          [](const auto& spec) { return std::string(spec.param.spec); });
 
+TEST(Folds, AreReadWithSeamsAndClamps) {
+  const json document = testing::json_from(TOILE_SOURCE "/schemas/examples/valid/folded_and_clamped.json");
+  const Garment garment = read_scene(document, no_reference).scene.garments[0];
+  EXPECT_EQ(garment.seam_bending.stiffness_factor, 4);
+  ASSERT_EQ(garment.folds.size(), 1u);
+  EXPECT_EQ(std::get<PinEdge>(garment.folds[0].select).panel, 1);
+  EXPECT_EQ(std::get<PinEdge>(garment.folds[0].select).edge, 2);
+  EXPECT_NEAR(garment.folds[0].angle, -2 * M_PI / 3, 1e-12);
+  EXPECT_EQ(garment.folds[0].stiffness_factor, 2);
+  ASSERT_EQ(garment.pins.size(), 1u);
+  EXPECT_TRUE(garment.pins[0].clamp);
+  const Directional &softening = garment.fabric.bending_softening, &loop = garment.fabric.bending_hysteresis;
+  EXPECT_DOUBLE_EQ(softening.warp, 2.7e-3);
+  EXPECT_DOUBLE_EQ(softening.weft, 2.4e-3);
+  EXPECT_DOUBLE_EQ(softening.bias, 2.4e-3);
+  EXPECT_DOUBLE_EQ(loop.warp, 400e-6);
+  EXPECT_DOUBLE_EQ(loop.weft, 300e-6);
+  EXPECT_DOUBLE_EQ(loop.bias, 350e-6);
+  EXPECT_EQ(garment.fabric.bending_hysteresis_onset, 15);
+  const Garment plain = garment_from(R"({"disc": {"radius_mm": 150}, "pins": [{"vertices": [0]}]})");
+  EXPECT_FALSE(plain.pins[0].clamp);
+  EXPECT_TRUE(plain.folds.empty());
+  EXPECT_EQ(plain.seam_bending.stiffness_factor, 1);
+  EXPECT_EQ(plain.fabric.bending_softening, Directional{});
+}
+
 TEST(Attach, CanBeTurnedOffNamedAndOverridden) {
   const std::string pattern = R"("pattern": {"pattern": {"panels": {"p": {"vertices": [[0,0],[9,0],[0,9]],
       "edges": [{"endpoints":[0,1],"label":"lower_interface"},{"endpoints":[1,2],"label":"cuff"},{"endpoints":[2,0]}]}}}})";

@@ -117,21 +117,22 @@ TEST(BlockMatrix, DiagonalOfContactsIsTheDenseOne) {
   }
 }
 
-TEST(BlockMatrix, OuterProductsAreAdded) {
-  const std::vector<int> nodes = {0, 1, 2, 3};
-  const std::array<BlockMatrix::Stencils, 1> stencils = {{{std::span<const int>(nodes), 4}}};
-  BlockMatrix matrix(4, stencils);
-  std::array<Eigen::Vector3f, 4> rows = {Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(-4, 5, 6), Eigen::Vector3f(7, -8, 9),
-                                         Eigen::Vector3f(0.5, 0.25, -1)};
-  std::array<int, 16> slots;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) slots[4 * i + j] = matrix.slot(i, j);
-  matrix.add_outer_products(slots, rows);
-  matrix.add_outer_products(slots, rows);
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j)
-      EXPECT_EQ(Eigen::Matrix3f(Eigen::Map<const Eigen::Matrix3f>(matrix.values(slots[4 * i + j]))),
-                2 * rows[i] * rows[j].transpose());
+TEST(BlockMatrix, ProductsOfRowsAreAdded) {
+  const std::vector<int> nodes = {0, 1, 2, 3, 4, 5};
+  const std::array<BlockMatrix::Stencils, 1> stencils = {{{std::span<const int>(nodes), 6}}};
+  BlockMatrix matrix(6, stencils);
+  std::array<Eigen::Matrix3f, 6> rows;
+  for (int i = 0; i < 6; ++i)
+    for (int k = 0; k < 9; ++k) rows[i](k / 3, k % 3) = static_cast<float>((7 * i + 5 * k) % 11 - 4);
+  std::array<int, 36> slots;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) slots[6 * i + j] = matrix.slot(i, j);
+  matrix.add_products(slots, rows);
+  matrix.add_products(slots, rows);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      EXPECT_EQ(Eigen::Matrix3f(Eigen::Map<const Eigen::Matrix3f>(matrix.values(slots[6 * i + j]))),
+                2 * rows[i].transpose() * rows[j]);
 }
 
 TEST(BlockMatrix, SlotOutsideTheTopologyThrows) {

@@ -166,6 +166,27 @@ TEST(CheckScene, NamesWhatIsWrongWithFabricsBodiesPinsAndSolver) {
       {"fabric_value /garments/0/fabric", [](Scene& s) { s.garments[0].fabric.stretch_stiffness.bias = kNan; }},
       {"fabric_value /garments/0/fabric", [](Scene& s) { s.garments[0].fabric.poisson_stiffness = 1800; }},
       {"fabric_value /garments/0/fabric", [](Scene& s) { s.garments[0].fabric.bending_stiffness.warp = -1; }},
+      {"fabric_value /garments/0/fabric", [](Scene& s) { s.garments[0].fabric.bending_softening.bias = -1e-3; }},
+      {"fabric_value /garments/0/fabric", [](Scene& s) { s.garments[0].fabric.bending_hysteresis.weft = kNan; }},
+      {"fabric_value /garments/0/fabric", [](Scene& s) { s.garments[0].fabric.bending_hysteresis_onset = 0; }},
+      {"fold_value /garments/0/seams/bending_factor",
+       [](Scene& s) { s.garments[0].seam_bending.stiffness_factor = 0; }},
+      {"unknown_edge /garments/0/folds/0/edge",
+       [](Scene& s) {
+         s.garments[0].folds = {{PinEdge{0, 99}, 1, 1}};
+       }},
+      {"unknown_label /garments/0/folds/0/label",
+       [](Scene& s) {
+         s.garments[0].folds = {{PinLabel{"cuff"}, 1, 1}};
+       }},
+      {"vertex_out_of_range /garments/0/folds/0/vertices",
+       [](Scene& s) {
+         s.garments[0].folds = {{PinVertices{{0, 1}}, 1, 1}};
+       }},
+      {"fold_value /garments/0/folds/0",
+       [](Scene& s) {
+         s.garments[0].folds = {{PinEdge{0, 0}, 4, 1}};
+       }},
       {"body_value /body/sphere",
        [](Scene& s) {
          s.body->shape = SphereBody{Vec3::Zero(), 0};
