@@ -1,14 +1,17 @@
 #include "engine/drape.h"
 
-#include "engine/contact/collision_mesh.h"
+#include "engine/check.h"
 #include "engine/mesh/build_cloth.h"
 #include "engine/mesh/sewing.h"
 #include "engine/parallel/thread_limit.h"
 #include "engine/quality/measure.h"
+#include "engine/quality/mesh_bending.h"
 #include "engine/quality/stretch.h"
+#include "engine/quality/warnings.h"
 #include "engine/scene/check.h"
 #include "engine/scene/problem.h"
 #include "engine/solve/assemble.h"
+#include "engine/solve/place_trims.h"
 #include "engine/solve/preview.h"
 #include "engine/solve/simulate.h"
 
@@ -43,12 +46,6 @@ class Reporter {
   Monitor& monitor_;
   double fraction_ = 0;
 };
-
-double smallest_edge_length(const Scene& scene) {
-  double length = 0.1;
-  for (const Garment& garment : scene.garments) length = std::min(length, garment.edge_length);
-  return length;
-}
 
 /// The reference rung: tolerances a hundred to a thousand times tighter, and no early stop.
 SolverOptions options_of(const Scene& scene) {
@@ -119,7 +116,22 @@ void check_size(Cloth& cloth, const BodyField& body) {
   throw InputError(std::move(problems));
 }
 
-void fill_simulation(const Simulation& simulation, const std::vector<HeldVertex>& held, Drape& drape) {
+bool slides_on_body(const Scene& scene) {
+  return std::any_of(scene.garments.begin(), scene.garments.end(), [](const Garment& garment) {
+    return std::any_of(garment.pins.begin(), garment.pins.end(), [](const Pin& pin) {
+      const auto* attached = std::get_if<PinAttached>(&pin.hold);
+      return attached && attached->slides;
+    });
+  });
+}
+
+bool has_trims(const Scene& scene) {
+  return std::any_of(scene.garments.begin(), scene.garments.end(),
+                     [](const Garment& g) { return !g.elastics.empty() || !g.drawcords.empty() || !g.trims.empty(); });
+}
+
+void fill_simulation(const Simulation& simulation, const std::vector<HeldVertex>& held, double contact_stiffness,
+                     Drape& drape) {
   Report& report = drape.report;
   report.stop_reason = simulation.stop_reason;
   report.status = simulation.stop_reason == "at_rest" ? "converged" : "not_converged";
@@ -136,6 +148,9 @@ void fill_simulation(const Simulation& simulation, const std::vector<HeldVertex>
   std::vector<char> is_held(drape.cloth.x.size(), 0);
   for (const HeldVertex& h : held) is_held[h.vertex] = 1;
   measure_residual(simulation.net_force, simulation.mass, is_held, report);
+  report.energies = simulation.energies;
+  measure_contacts(drape.cloth, simulation.contacts, simulation.cloth_contacts, contact_stiffness, Friction::known,
+                   report);
   drape.contact_force = simulation.contact_force;
 }
 
@@ -151,12 +166,14 @@ Drape drape(const Scene& scene, Monitor& monitor) {
   check_scene(scene);
   stage("mesh", 0);
   Cloth apart = build_cloth(scene);
+  warn_of_mesh_bending(apart, given_as_mesh(scene));
   stage("body", 0.01);
   const Bodies bodies = make_bodies(scene, apart);
   if (bodies.whole) check_size(apart, *bodies.whole);
 
   stage("assemble", 0.02);
   const std::vector<std::string> found = apart.warnings;
+  const Cloth before = slides_on_body(scene) ? apart : Cloth{};
   Assembly assembly;
   try {
     assembly = assemble(scene, std::move(apart), bodies.fields(), [&](const AssemblyState& state) {
@@ -175,12 +192,14 @@ Drape drape(const Scene& scene, Monitor& monitor) {
     for (const std::string& warning : bodies.whole->warnings()) report.warnings.push_back(warning);
 
   result.contact_force.assign(result.cloth.x.size(), 0.0);
+  std::vector<double> contact_distance;
   if (!assembly.open_seams.empty()) {
     report.status = "failed";
     report.stop_reason = "seams_open";
     for (const std::string& seam : assembly.open_seams) report.warnings.push_back("seam did not close: " + seam);
   } else if (scene.fidelity == Fidelity::preview) {
     const std::vector<HeldVertex> held = held_vertices(scene, result.cloth, assembly.attached);
+    const Positions start = result.cloth.x;
     const PreviewOutcome outcome =
         settle_preview(scene, result.cloth, bodies.fields().whole, held, [&](double fraction, long contacts) {
           return reporter({"drape", 0, 0, contacts, kAssembled + (kDraped - kAssembled) * fraction});
@@ -189,25 +208,47 @@ Drape drape(const Scene& scene, Monitor& monitor) {
     report.stop_reason = outcome.at_rest ? "at_rest" : "time_limit";
     report.status = outcome.at_rest ? "converged" : "not_converged";
     report.time.drape = seconds_since(started) - report.time.assemble;
+    contact_distance = measure_equilibrium(result.cloth, start,
+                                           {options_of(scene),
+                                            bodies.fields().whole,
+                                            scene.body ? scene.body->friction.value_or(-1) : 0.0,
+                                            held,
+                                            scene.friction_pairs,
+                                            {},
+                                            {}},
+                                           {}, report);
     report.warnings.push_back("preview: positions only, no forces; not an equilibrium of the fabric");
+    if (slides_on_body(scene)) report.warnings.push_back("preview: what slides along the body is held");
+    if (has_trims(scene)) report.warnings.push_back("preview: elastics and drawcords do not pull, trims are left out");
   } else {
-    SimulationScene simulated{options_of(scene), bodies.fields().whole, scene.body ? scene.body->friction : 0.0,
-                              held_vertices(scene, result.cloth, assembly.attached)};
+    std::vector<SlidingVertex> sliding;
+    if (!before.x.empty()) sliding = sliding_vertices(scene, before, result.cloth, assembly.old_to_new);
+    SimulationScene simulated{options_of(scene),
+                              bodies.fields().whole,
+                              scene.body ? scene.body->friction.value_or(-1) : 0.0,
+                              held_vertices(scene, result.cloth, assembly.attached, sliding),
+                              scene.friction_pairs,
+                              sliding,
+                              make_trimmings(scene, result.cloth)};
     const Simulation simulation = simulate(result.cloth, simulated, [&](const SimulationState& state) {
       const bool relaxing = state.time < scene.solver.relaxation_time;
       return reporter({relaxing ? "relax" : "drape", state.time, state.kinetic_energy, state.contacts,
                        kAssembled + (kDraped - kAssembled) * estimated_progress(state, scene.solver)});
     });
-    fill_simulation(simulation, simulated.held, result);
+    fill_simulation(simulation, simulated.held, simulated.options.contact_stiffness, result);
+    result.trims = simulated.trimmings.trims;
+    for (std::size_t t = 0; t < result.trims.size(); ++t) result.trims[t].start = simulation.trims[t];
+    contact_distance = simulation.contact_distance;
     report.time.drape = seconds_since(started) - report.time.assemble;
   }
   stage("measure", kDraped);
   measure_geometry(result.cloth, bodies.fields().whole, report);
-  add_warnings(result.cloth, report);
+  add_warnings(result.cloth, contact_distance, report);
   const TriangleStretch stretch = triangle_stretch(result.cloth.flat, result.cloth.triangles, result.cloth.x);
   result.stretch_warp = stretch.warp;
   result.stretch_weft = stretch.weft;
   if (bodies.whole) result.body_mesh = bodies.whole->surface();
+  append_trims(scene, result.trims, result.body_mesh);
   report.time.total = seconds_since(started);
   return result;
 }

@@ -6,14 +6,17 @@
 #include "engine/monitor.h"
 #include "engine/report.h"
 #include "engine/scene/scene.h"
+#include "engine/solve/trimmings.h"
 
 #include <memory>
 
 namespace toile {
 
 struct Drape {
-  Cloth cloth;             ///< sewn and draped: final positions in cloth.x
-  TriangleMesh body_mesh;  ///< the body as a surface, for pictures; empty without a body (a plane: a large square)
+  Cloth cloth;  ///< sewn and draped: final positions in cloth.x
+  /// The body as a surface (a plane: a large square) and the trims, for pictures; empty without either.
+  TriangleMesh body_mesh;
+  std::vector<RigidTrim> trims;  ///< where they ended, in the order of the garments and their trims
   /// Per vertex of cloth, sum of contact forces [N] (overlay `contact`).
   std::vector<double> contact_force;
   /// Per triangle, stretch ratio minus one along warp and weft (overlay `stretch`).

@@ -6,9 +6,22 @@
 
 namespace toile {
 
-/// Mean, 99th percentile and largest value over triangles, area-weighted; stretch ratio minus one (0.02 = 2 %).
+/// Of the stretch ratio minus one (0.02 = 2 %) over triangles: mean and percentiles by rest area, largest and smallest.
 struct StretchStatistics {
   double mean = 0, p99 = 0, max = 0;
+  double min = 0, p01 = 0, median = 0;
+};
+
+/// What one term of the model stores; `term` is its name in terms/ and in the report.
+struct TermEnergy {
+  std::string term;
+  double energy = 0;  ///< [J]
+};
+
+/// Contacts that press, and those of them whose friction is inside its cone.
+struct ContactStatistics {
+  long body = 0, cloth = 0;
+  long body_sticking = 0, cloth_sticking = 0;
 };
 
 struct StageTimes {
@@ -23,13 +36,17 @@ struct Report {
   StageTimes time;
   double simulated_time = 0;
   long steps = 0, newton_iterations = 0, cg_iterations = 0, splits = 0, limited_vertices = 0;
-  StretchStatistics stretch_warp, stretch_weft;
+  StretchStatistics stretch_warp, stretch_weft, stretch_bias;
   double residual_rms = 0, residual_max = 0;  ///< net force on free nodes over nodal weight
   double penetration_max = 0;                 ///< deepest point of the cloth inside the body [m]
   long self_intersections = 0;                ///< pairs of triangles
   double seam_gap_max = 0;                    ///< [m] before merging
   double kinetic_energy = 0;                  ///< [J]
-  std::string result_sha256;                  ///< of the final positions' bytes
+  std::vector<TermEnergy> energies;           ///< by term
+  ContactStatistics contacts;
+  double discretisation_error = 0;  ///< estimated mean distance to the drape on a mesh of no edge length [m]
+  double compressed_share = 0;      ///< of the rest area, squeezed farther than StVK reaches
+  std::string result_sha256;        ///< of the final positions' bytes
   std::vector<std::string> warnings;
 };
 

@@ -1,6 +1,7 @@
 #include "schemas/fabrics.h"
 
 #include "engine/scene/problem.h"
+#include "engine/scene/stretch_test.h"
 #include "schemas/pointer.h"
 #include "schemas/resource.h"
 #include "schemas/validate.h"
@@ -28,7 +29,14 @@ Directional directional(const json& numbers, double unit) {
           numbers.at("bias").get<double>() * unit};
 }
 
-Fabric from_complete(const json& document) {
+std::vector<ForceStrain> readings(const json& curves, const char* direction) {
+  std::vector<ForceStrain> list;
+  for (const json& reading : curves.value(direction, json::array()))
+    list.push_back({reading.at("strain_percent").get<double>() * 1e-2, reading.at("force_N_m").get<double>()});
+  return list;
+}
+
+Fabric from_complete(const json& document, const std::string& pointer) {
   Fabric fabric;
   fabric.name = document.at("name").get<std::string>();
   fabric.area_density = document.at("area_density_g_m2").get<double>() * 1e-3;
@@ -36,12 +44,22 @@ Fabric from_complete(const json& document) {
   fabric.poisson_stiffness = document.at("poisson_ratio").get<double>() *
                              std::sqrt(fabric.stretch_stiffness.warp * fabric.stretch_stiffness.weft);
   fabric.bending_stiffness = directional(document.at("bending_uN_m"), 1e-6);
+  if (const auto softening = document.find("bending_softening_mm"); softening != document.end())
+    fabric.bending_softening = directional(*softening, 1e-3);
+  if (const auto loop = document.find("bending_hysteresis_uN"); loop != document.end())
+    fabric.bending_hysteresis = directional(*loop, 1e-6);
+  fabric.bending_hysteresis_onset = document.value("bending_hysteresis_onset_per_m", fabric.bending_hysteresis_onset);
   fabric.thickness = document.at("thickness_mm").get<double>() * 1e-3;
   fabric.friction_cloth = document.at("friction_cloth").get<double>();
   fabric.friction_body = document.at("friction_body").get<double>();
   fabric.membrane_damping = document.at("damping_s").at("membrane").get<double>();
   fabric.bending_damping = document.at("damping_s").at("bending").get<double>();
   fabric.woven = document.at("woven").get<bool>();
+  if (document.contains("stretch_curve")) {
+    const json& curves = document["stretch_curve"];
+    apply_stretch_test({readings(curves, "warp"), readings(curves, "weft"), readings(curves, "bias")},
+                       document.at("poisson_ratio").get<double>(), child(pointer, "stretch_curve"), fabric);
+  }
   return fabric;
 }
 
@@ -65,14 +83,14 @@ std::optional<json> fabric_document(std::string_view name) {
 Fabric read_fabric(const json& name_or_document, const std::string& pointer) {
   validate_document("fabric.schema.json", name_or_document, pointer);
   if (name_or_document.is_string()) {
-    return from_complete(library_document(name_or_document.get<std::string>(), pointer));
+    return from_complete(library_document(name_or_document.get<std::string>(), pointer), pointer);
   }
   const std::string base = name_or_document.value("base", "poplin");
   const std::string base_pointer = name_or_document.contains("base") ? child(pointer, "base") : pointer;
   json document = library_document(base, base_pointer);
   document["name"] = base + " (changed)";
   document.update(name_or_document);
-  return from_complete(document);
+  return from_complete(document, pointer);
 }
 
 }  // namespace toile

@@ -19,7 +19,8 @@ std::vector<std::string> fabric_names();
 std::optional<nlohmann::json> fabric_document(std::string_view name);
 
 /// A fabric from its name or from an inline document that matches fabric.schema.json; keys that are not given come from
-/// its base. Throws InputError at `pointer` with the codes unknown_fabric and those of validate_document.
+/// its base. Throws InputError at `pointer` with the codes unknown_fabric, those of validate_document, and at
+/// `pointer`/stretch_curve those of apply_stretch_test.
 Fabric read_fabric(const nlohmann::json& name_or_document, const std::string& pointer = "");
 
 }  // namespace toile

@@ -64,8 +64,10 @@ decltype(Body::shape) read_shape(const json& body, const std::string& pointer, c
 
 }  // namespace
 
-Body read_body(const json& document, const std::string& pointer, const Resolver& resolve, double friction) {
-  return {read_shape(document, pointer, resolve), document.value("friction", friction)};
+Body read_body(const json& document, const std::string& pointer, const Resolver& resolve) {
+  Body body{read_shape(document, pointer, resolve), std::nullopt};
+  if (document.contains("friction")) body.friction = document["friction"].get<double>();
+  return body;
 }
 
 }  // namespace toile

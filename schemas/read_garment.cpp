@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 
 namespace toile {
@@ -14,6 +15,8 @@ namespace toile {
 namespace {
 
 using nlohmann::json;
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
 void move(Pattern& pattern, const Mat3& rotation, const Vec3& translation) {
   for (Panel& panel : pattern.panels) {
@@ -65,12 +68,23 @@ std::vector<std::string> part_names(const Garment& garment) {
   return names;
 }
 
+void require_part(const std::vector<std::string>& names, const std::string& name, const std::string& pointer) {
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  throw InputError(child(pointer, name), "unknown_panel", "The garment has no panel \"" + name + "\".");
+}
+
+void read_panel_grain(const json& grains, const std::string& pointer, Garment& garment) {
+  const std::vector<std::string> names = part_names(garment);
+  for (const auto& [name, grain] : grains.items()) {
+    require_part(names, name, pointer);
+    garment.panel_grain[name] = grain.get<double>() * kRadiansPerDegree;
+  }
+}
+
 void read_panel_fabrics(const json& fabrics, const std::string& pointer, Garment& garment) {
   const std::vector<std::string> names = part_names(garment);
   for (const auto& [name, fabric] : fabrics.items()) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
-      throw InputError(child(pointer, name), "unknown_panel", "The garment has no panel \"" + name + "\".");
-    }
+    require_part(names, name, pointer);
     garment.panel_fabrics[name] = read_fabric(fabric, child(pointer, name));
   }
   if (auto* pattern = std::get_if<Pattern>(&garment.shape)) {
@@ -115,12 +129,19 @@ Garment read_garment(const json& document, const std::string& pointer, const Res
   std::visit([&](auto& shape) { move(shape, rotation, read_millimetres(transform, "translate_mm")); }, garment.shape);
   garment.fabric = read_fabric(document.value("fabric", json("poplin")), child(pointer, "fabric"));
   read_panel_fabrics(document.value("panel_fabrics", json::object()), child(pointer, "panel_fabrics"), garment);
+  garment.grain = document.value("grain_deg", 0.0) * kRadiansPerDegree;
+  read_panel_grain(document.value("panel_grain_deg", json::object()), child(pointer, "panel_grain_deg"), garment);
   garment.edge_length = document.value("edge_length_mm", 15.0) * 1e-3;
 
   const json pins = document.value("pins", json::array());
   for (std::size_t k = 0; k < pins.size(); ++k) {
     garment.pins.push_back(read_pin(pins[k], garment, child(child(pointer, "pins"), k), on_body));
   }
+  garment.seam_bending.stiffness_factor = document.value("seams", json::object()).value("bending_factor", 1.0);
+  const json folds = document.value("folds", json::array());
+  for (std::size_t k = 0; k < folds.size(); ++k)
+    garment.folds.push_back(read_fold(folds[k], garment, child(child(pointer, "folds"), k)));
+  read_trims(document, pointer, garment);
   if (const auto* pattern = std::get_if<Pattern>(&garment.shape)) {
     for (Pin& pin : attached_pins(document, *pattern, pointer, on_body)) garment.pins.push_back(std::move(pin));
   } else if (document.contains("attach") && document["attach"].is_array() && !document["attach"].empty()) {

@@ -4,6 +4,7 @@
 #include "schemas/scene_parts.h"
 
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 
 namespace toile {
@@ -49,7 +50,7 @@ std::set<std::string> automatic_labels(const Pattern& pattern) {
   throw InputError(pointer, "attached_without_body", "There is no body to be attached to.");
 }
 
-decltype(Pin::select) read_edge(const json& edge, const Garment& garment, const std::string& pointer) {
+PinEdge read_edge(const json& edge, const Garment& garment, const std::string& pointer) {
   const auto name = edge.at("panel").get<std::string>();
   if (const auto* pattern = std::get_if<Pattern>(&garment.shape)) {
     for (std::size_t p = 0; p < pattern->panels.size(); ++p) {
@@ -64,16 +65,8 @@ decltype(Pin::select) read_edge(const json& edge, const Garment& garment, const 
   throw InputError(child(pointer, "panel"), "unknown_panel", "The garment has no panel \"" + name + "\".");
 }
 
-decltype(Pin::select) read_select(const json& pin, const Garment& garment, const std::string& pointer) {
-  if (pin.contains("vertices")) return PinVertices{pin["vertices"].get<std::vector<int>>()};
-  if (pin.contains("edge")) return read_edge(pin["edge"], garment, child(pointer, "edge"));
-  if (pin.contains("nearest_mm")) return PinNearest{read_millimetres(pin, "nearest_mm")};
-  if (pin.contains("box_mm")) {
-    const Vec3 min = read_millimetres(pin["box_mm"], "min"), max = read_millimetres(pin["box_mm"], "max");
-    if ((min.array() <= max.array()).all()) return PinBox{min, max};
-    throw InputError(child(pointer, "box_mm"), "empty_box", "min lies above max along an axis.");
-  }
-  const auto label = pin.at("label").get<std::string>();
+PinLabel read_label(const json& selection, const Garment& garment, const std::string& pointer) {
+  const auto label = selection.at("label").get<std::string>();
   const auto* pattern = std::get_if<Pattern>(&garment.shape);
   if (!pattern || !edge_labels(*pattern).contains(label)) {
     throw InputError(child(pointer, "label"), "unknown_label", "No edge of the garment is labelled \"" + label + "\".");
@@ -99,17 +92,59 @@ PinMoved read_motion(const json& hold, const std::string& pointer) {
 
 }  // namespace
 
+Selection read_selection(const json& pin, const Garment& garment, const std::string& pointer) {
+  if (pin.contains("vertices")) return PinVertices{pin["vertices"].get<std::vector<int>>()};
+  if (pin.contains("edge")) return read_edge(pin["edge"], garment, child(pointer, "edge"));
+  if (pin.contains("nearest_mm")) return PinNearest{read_millimetres(pin, "nearest_mm")};
+  if (pin.contains("box_mm")) {
+    const Vec3 min = read_millimetres(pin["box_mm"], "min"), max = read_millimetres(pin["box_mm"], "max");
+    if ((min.array() <= max.array()).all()) return PinBox{min, max};
+    throw InputError(child(pointer, "box_mm"), "empty_box", "min lies above max along an axis.");
+  }
+  return read_label(pin, garment, pointer);
+}
+
 Pin read_pin(const json& document, const Garment& garment, const std::string& pointer, bool on_body) {
-  Pin pin{read_select(document, garment, pointer), PinFixed{}};
+  Pin pin{read_selection(document, garment, pointer), PinFixed{}, document.value("clamp", false)};
   const auto hold = document.find("hold");
+  const bool slides = hold != document.end() && *hold == "sliding";
+  if (document.contains("friction") && !slides) {
+    throw InputError(child(pointer, "friction"), "friction_of_nothing", "Only a pin whose hold is sliding rubs.");
+  }
   if (hold == document.end() || *hold == "fixed") return pin;
   if (hold->is_object()) {
     pin.hold = read_motion(*hold, child(pointer, "hold"));
   } else {
     if (!on_body) no_body(child(pointer, "hold"));
-    pin.hold = PinAttached{};
+    PinAttached attached;
+    attached.slides = slides;
+    if (document.contains("friction")) attached.friction = document["friction"].get<double>();
+    pin.hold = attached;
   }
   return pin;
+}
+
+Fold read_fold(const json& document, const Garment& garment, const std::string& pointer) {
+  Fold fold;
+  if (document.contains("vertices")) {
+    const auto* mesh = std::get_if<GarmentMesh>(&garment.shape);
+    const auto count = mesh ? mesh->mesh.vertices.size() : 0;
+    const auto vertices = document["vertices"].get<std::vector<int>>();
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      if (static_cast<std::size_t>(vertices[k]) < count) continue;
+      throw InputError(child(child(pointer, "vertices"), k), "vertex_out_of_range",
+                       mesh ? "The mesh has " + std::to_string(count) + " vertices, counted from 0."
+                            : "Only a garment that is a mesh has vertices to name.");
+    }
+    fold.select = PinVertices{vertices};
+  } else if (document.contains("edge")) {
+    fold.select = read_edge(document["edge"], garment, child(pointer, "edge"));
+  } else {
+    fold.select = read_label(document, garment, pointer);
+  }
+  fold.angle = document.at("angle_deg").get<double>() * std::numbers::pi / 180;
+  fold.stiffness_factor = document.value("bending_factor", 1.0);
+  return fold;
 }
 
 std::vector<Pin> attached_pins(const json& garment, const Pattern& pattern, const std::string& pointer, bool on_body) {
@@ -131,7 +166,7 @@ std::vector<Pin> attached_pins(const json& garment, const Pattern& pattern, cons
   }
   for (const json& pin : garment.value("pins", json::array())) labels.erase(pin.value("label", ""));
   std::vector<Pin> pins;
-  for (const std::string& label : labels) pins.push_back({PinLabel{label}, PinAttached{}});
+  for (const std::string& label : labels) pins.push_back({PinLabel{label}, PinAttached{}, false});
   return pins;
 }
 

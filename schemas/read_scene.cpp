@@ -19,6 +19,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::string_view kBodyName = "body";  // in a pair of materials
+
 SolverOptions read_solver(const json& document) {
   SolverOptions options;
   for_each_solver_key(options, [&](const char* key, auto& member, double unit) {
@@ -133,9 +135,11 @@ Job read_scene(const json& document, const Resolver& resolve) {
     Garment& garment = job.scene.garments.back();
     if (garment.name.empty()) garment.name = "garment_" + std::to_string(g);
   }
-  if (on_body) {
-    const double friction = job.scene.garments.front().fabric.friction_body;
-    job.scene.body = read_body(document["body"], "/body", resolve, friction);
+  if (on_body) job.scene.body = read_body(document["body"], "/body", resolve);
+  for (const json& pair : document.value("friction_pairs", json::array())) {
+    const std::string other = pair["between"][1];
+    job.scene.friction_pairs.push_back(
+        {pair["between"][0], other == kBodyName ? "" : other, pair["coefficient"].get<double>()});
   }
   job.scene.fidelity = read_fidelity(document.value("fidelity", "standard"));
   job.scene.solver = read_solver(document.value("solver", json::object()));

@@ -8,6 +8,7 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace toile {
@@ -42,6 +43,12 @@ std::vector<std::string> asset_references(const nlohmann::json& document);
 /// pointers as if the pattern's own `panels` stood in the scene (/garments/0/pattern/panels/NAME/edges/3), wherever its
 /// document stands.
 Job read_scene(const nlohmann::json& document, const Resolver& resolve);
+
+enum class UpAxis { y, z };
+
+/// An OBJ or GLB (told apart by its first bytes) whose coordinates are in units of `unit` [m], turned y up. Throws
+/// InputError (`bad_mesh_file`).
+TriangleMesh read_mesh_bytes(std::string_view bytes, const std::string& pointer, double unit, UpAxis up);
 
 /// For the command line: files relative to `base`, and assets in `base`/assets/<64 hex digits>. Codes file_not_found,
 /// file_too_large (256 MiB), asset_not_found.

@@ -24,14 +24,23 @@ TriangleMesh read_mesh(const nlohmann::json& source, const std::string& pointer,
 Garment read_garment(const nlohmann::json& document, const std::string& pointer, const Resolver& resolve, bool on_body,
                      std::vector<std::string>& warnings);
 
-/// One valid body; `friction` where it gives none.
-Body read_body(const nlohmann::json& document, const std::string& pointer, const Resolver& resolve, double friction);
+/// One valid body.
+Body read_body(const nlohmann::json& document, const std::string& pointer, const Resolver& resolve);
 
 /// The pins that a garment's `attach` asks for.
 std::vector<Pin> attached_pins(const nlohmann::json& garment, const Pattern& pattern, const std::string& pointer,
                                bool on_body);
 
+/// What a valid pin, elastic or drawcord of a garment selects.
+Selection read_selection(const nlohmann::json& document, const Garment& garment, const std::string& pointer);
+
+/// What is sewn onto a valid garment: fills its elastics, drawcords and trims.
+void read_trims(const nlohmann::json& document, const std::string& pointer, Garment& garment);
+
 /// One valid pin of a garment.
 Pin read_pin(const nlohmann::json& document, const Garment& garment, const std::string& pointer, bool on_body);
+
+/// One valid fold of a garment.
+Fold read_fold(const nlohmann::json& document, const Garment& garment, const std::string& pointer);
 
 }  // namespace toile

@@ -11,7 +11,19 @@ namespace {
 using nlohmann::json;
 
 json stretch_percent(const StretchStatistics& ratio) {
-  return {{"mean", 100 * ratio.mean}, {"p99", 100 * ratio.p99}, {"max", 100 * ratio.max}};
+  return {{"mean", 100 * ratio.mean},     {"min", 100 * ratio.min}, {"p01", 100 * ratio.p01},
+          {"median", 100 * ratio.median}, {"p99", 100 * ratio.p99}, {"max", 100 * ratio.max}};
+}
+
+json energies(const std::vector<TermEnergy>& terms) {
+  json document = json::object();
+  for (const TermEnergy& term : terms) document[term.term] = term.energy;
+  return document;
+}
+
+json contacts(long count, long sticking) {
+  const double share = count > 0 ? static_cast<double>(sticking) / static_cast<double>(count) : 0;
+  return {{"count", count}, {"sticking_share", share}};
 }
 
 json times(const StageTimes& time) {
@@ -52,7 +64,15 @@ json write_report(const Report& report) {
                    {"splits", report.splits},
                    {"limited_vertices", report.limited_vertices},
                    {"stretch_percent",
-                    {{"warp", stretch_percent(report.stretch_warp)}, {"weft", stretch_percent(report.stretch_weft)}}},
+                    {{"warp", stretch_percent(report.stretch_warp)},
+                     {"weft", stretch_percent(report.stretch_weft)},
+                     {"bias", stretch_percent(report.stretch_bias)}}},
+                   {"compressed_percent", 100 * report.compressed_share},
+                   {"energy_j", energies(report.energies)},
+                   {"contacts",
+                    {{"body", contacts(report.contacts.body, report.contacts.body_sticking)},
+                     {"cloth", contacts(report.contacts.cloth, report.contacts.cloth_sticking)}}},
+                   {"discretisation_error_mm", 1e3 * report.discretisation_error},
                    {"force_residual", {{"rms", report.residual_rms}, {"max", report.residual_max}}},
                    {"penetration_mm", {{"max", 1e3 * report.penetration_max}}},
                    {"self_intersections", report.self_intersections},

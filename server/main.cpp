@@ -23,6 +23,31 @@ int main(int argc, char** argv) {
   drape_command->add_option("--threads", drape.threads, "0: all cores; the result is the same on any number")
       ->check(CLI::Range(0, 1024));
 
+  toile::CheckArguments check;
+  CLI::App* check_command = app.add_subcommand("check",
+                                               "Judges any mesh as a drape of a scene: forces, stretch, penetration, "
+                                               "crossings, energies. Exit status: 0 at rest, 2 bad input (the problem "
+                                               "on stderr), 3 not at rest.");
+  check_command->add_option("scene", check.scene, "The scene, JSON; its files are relative to it")->required();
+  check_command
+      ->add_option(
+          "--mesh", check.mesh,
+          "OBJ or GLB of the draped garments, sewn or not, in the vertex order of the scene's garments or of a "
+          "run's mesh.obj")
+      ->required();
+  check_command->add_option("--out", check.out, "Write the report, JSON, to this file");
+  check_command->add_option("--unit-mm", check.unit_mm, "Millimetres in a unit of the mesh")
+      ->check(CLI::Range(1e-6, 1e6))
+      ->capture_default_str();
+  check_command->add_option("--up", check.up, "The mesh's upward axis")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->capture_default_str();
+  check_command
+      ->add_option("--touch-mm", check.touch_mm,
+                   "Cloth this near to body or cloth may lean on it; unless given, as near as the scene's own contact "
+                   "reaches")
+      ->check(CLI::Range(1e-3, 50.0));
+
   toile::RenderArguments render;
   CLI::App* render_command = app.add_subcommand("render", "Draws another picture of a drape that is done.");
   render_command->add_option("--job", render.job, "Folder that `toile drape --out` wrote")->required();
@@ -65,6 +90,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     if (drape_command->parsed()) return toile::run_drape(drape);
+    if (check_command->parsed()) return toile::run_check(check);
     if (render_command->parsed()) return toile::run_render(render);
     if (serve_command->parsed()) return toile::run_serve(serve);
     if (health_command->parsed()) return toile::run_health(health);

@@ -10,12 +10,18 @@
 namespace toile {
 
 struct BodyContactOptions {
-  double offset = 3e-3;   ///< vertices are repelled from the surface up to here [m]
-  double friction = 0.3;  ///< Coulomb coefficient
+  double offset = 3e-3;   ///< vertices are repelled from the surface up to here [m]; 0: the mesh's body_offset
+  double friction = 0.3;  ///< Coulomb coefficient; < 0: the mesh's friction table
 };
 
-/// Vertices nearer to the body than `offset`; and midpoints of edges nearer than half of it, so that the chord of a
-/// coarse triangle does not cut into a finger. gap is the distance field, linear about x. Parallel, in a fixed order.
+/// How far a vertex is kept off the surface [m].
+inline double offset_from_body(const CollisionMesh& mesh, const BodyContactOptions& options, int vertex) {
+  return options.offset > 0 ? options.offset : mesh.body_offset[vertex];
+}
+
+/// Vertices nearer to the body than their offset; and midpoints of edges nearer than half of it (of the smaller one),
+/// so that the chord of a coarse triangle does not cut into a finger. gap is the distance field, linear about x.
+/// Parallel, in a fixed order.
 std::vector<Contact> body_contacts(const CollisionMesh& mesh, const BodyField& body, const Positions& x,
                                    const BodyContactOptions& options);
 

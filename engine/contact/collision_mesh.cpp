@@ -40,24 +40,47 @@ double default_body_offset(double thickness, double edge_length) {
   return std::max(0.5 * thickness, std::min(0.1 * edge_length, 1.5e-3));
 }
 
+double CollisionMesh::pair_distance(std::span<const int> a, std::span<const int> b) const {
+  double limit = distance_limit[a[0]], wanted_a = wanted_distance[a[0]], wanted_b = wanted_distance[b[0]];
+  for (int v : a) limit = std::min(limit, distance_limit[v]), wanted_a = std::min(wanted_a, wanted_distance[v]);
+  for (int v : b) limit = std::min(limit, distance_limit[v]), wanted_b = std::min(wanted_b, wanted_distance[v]);
+  return std::min(limit, 0.5 * (wanted_a + wanted_b));
+}
+
+double CollisionMesh::pair_friction(std::span<const int> a, std::span<const int> b) const {
+  double sum = 0;
+  for (int v : a)
+    for (int w : b) sum += friction.between(fabric[v], fabric[w]);
+  return sum / static_cast<double>(a.size() * b.size());
+}
+
 CollisionMesh make_collision_mesh(const Cloth& cloth, double contact_distance, const std::vector<SeamZone>& zones) {
   CollisionMesh mesh;
   mesh.triangles = cloth.triangles;
   mesh.identity = seam_representatives(cloth);
   const std::size_t n = cloth.x.size();
-  mesh.distance.assign(n, 1.0);
-  mesh.friction.assign(n, 0.0);
+  mesh.wanted_distance.assign(n, 1.0);
+  mesh.distance_limit.assign(n, 1.0);
+  mesh.body_offset.assign(n, 0.0);
+  mesh.fabric.assign(n, 0);
+  std::vector<char> used(n, 0);
+  mesh.friction = friction_table(cloth.fabrics, -1, {});
   std::set<std::array<int, 2>> edges;
   for (std::size_t t = 0; t < cloth.triangles.size(); ++t) {
     const ClothPanel& panel = cloth.panels[cloth.triangle_panel[t]];
     const Fabric& fabric = cloth.fabrics[panel.fabric];
     const double wanted =
         contact_distance > 0 ? contact_distance : default_contact_distance(fabric.thickness, panel.edge_length);
-    const double distance = std::min(wanted, 0.3 * smallest_altitude(cloth.flat[t]));
+    const double limit = 0.3 * smallest_altitude(cloth.flat[t]);
+    const double offset = default_body_offset(fabric.thickness, panel.edge_length);
     for (int k = 0; k < 3; ++k) {
       const int v = cloth.triangles[t][k], w = cloth.triangles[t][(k + 1) % 3];
-      mesh.distance[v] = std::min(mesh.distance[v], distance);
-      mesh.friction[v] = std::max(mesh.friction[v], fabric.friction_cloth);
+      mesh.wanted_distance[v] = std::min(mesh.wanted_distance[v], wanted);
+      mesh.distance_limit[v] = std::min(mesh.distance_limit[v], limit);
+      mesh.body_offset[v] = std::max(mesh.body_offset[v], offset);
+      if (!used[v] || fabric.friction_cloth > cloth.fabrics[mesh.fabric[v]].friction_cloth)
+        mesh.fabric[v] = panel.fabric;
+      used[v] = 1;
       edges.insert({std::min(v, w), std::max(v, w)});
     }
   }

@@ -1,9 +1,11 @@
 #pragma once
 // What collision detection needs to know of the cloth and never changes during a stage.
 
+#include "engine/contact/friction_table.h"
 #include "engine/mesh/cloth.h"
 #include "engine/types.h"
 
+#include <span>
 #include <vector>
 
 namespace toile {
@@ -19,8 +21,19 @@ struct CollisionMesh {
   std::vector<int> panel;  ///< per vertex, where only features of different panels share zones; else empty
   /// Per vertex, the zones that it lies in, ascending: the identity of the zone's seam vertex, or −2 − identity.
   std::vector<std::vector<int>> seam_zone;
-  std::vector<double> distance;  ///< per vertex: cloth–cloth repulsion starts here [m]; a pair takes its smallest
-  std::vector<double> friction;  ///< per vertex: cloth–cloth Coulomb coefficient; a pair takes the mean of its nodes
+  /// Per vertex: its fabric, an index into Cloth::fabrics; where several meet, the one of most friction.
+  std::vector<int> fabric;
+  FrictionTable friction;  ///< a pair of features takes the mean over its pairs of nodes
+  /// Per vertex: what its fabric keeps away from the same fabric, the least where several meet [m].
+  std::vector<double> wanted_distance;
+  std::vector<double> distance_limit;  ///< per vertex: no pair's distance is more [m]
+  std::vector<double>
+      body_offset;  ///< per vertex: repulsion from the body starts here, the most where several meet [m]
+
+  /// Where the repulsion of two features starts [m]: half the sum of what both sides want, so that two fabrics of
+  /// different thickness lie as far apart as both need; at most every node's limit.
+  double pair_distance(std::span<const int> a, std::span<const int> b) const;
+  double pair_friction(std::span<const int> a, std::span<const int> b) const;
 };
 
 /// How far the mid-surface stays off the body [m]: half the fabric's thickness, or a tenth of an edge, at most 1.5 mm,
@@ -33,7 +46,8 @@ double default_body_offset(double thickness, double edge_length);
 double default_contact_distance(double thickness, double edge_length);
 
 /// `contact_distance` 0 means the default. Around triangles that are small (the pattern's own short edges) the distance
-/// shrinks to 0.3 of the smallest rest altitude, so that a flat sheet never touches itself.
+/// is limited to 0.3 of the smallest rest altitude, so that a flat sheet never touches itself. The friction is that of
+/// the fabrics alone.
 /// `zones` give seam vertices zones of that many edges around them on either panel.
 struct SeamZone {
   int edges = 0;

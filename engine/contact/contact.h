@@ -12,7 +12,8 @@ namespace toile {
 ///   cloth against cloth (vertex–triangle, edge–edge): weights sum to 0, p is the vector between the closest points.
 /// gap(x) = normal · p(x) − offset [m]; repulsion is active while gap < distance, with energy ½ k (distance − gap)².
 /// Coulomb friction acts in the plane across `normal`: an elastic–plastic spring from `anchor` (the value of p at which
-/// the tangential spring is unloaded), which slides when its force exceeds friction · normal force.
+/// the tangential spring is unloaded), which slides when its force exceeds friction · normal force. A bilateral contact
+/// (an edge attached to the body that slides along it) also pulls, and rubs under pull as it does under push.
 struct Contact {
   std::array<int, 4> nodes{};
   std::array<double, 4> weights{};
@@ -22,6 +23,7 @@ struct Contact {
   double distance = 0;         ///< [m]
   double friction = 0;         ///< Coulomb coefficient
   Vec3 anchor = Vec3::Zero();  ///< [m]
+  bool bilateral = false;      ///< what leaves is pulled back: the energy holds on both sides of `distance`
   std::uint64_t key = 0;       ///< the same pair of features has the same key from step to step
 };
 

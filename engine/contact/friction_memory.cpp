@@ -16,7 +16,7 @@ void FrictionMemory::recall(std::vector<Contact>& contacts, const Positions& x) 
 void FrictionMemory::store(const std::vector<Contact>& contacts, const Positions& x) {
   stretched_.clear();
   for (const Contact& c : contacts) {
-    if (contact_gap(c, x) >= c.distance) continue;
+    if (!c.bilateral && contact_gap(c, x) >= c.distance) continue;
     const Vec3 u = contact_point(c, x) - c.anchor;
     stretched_.emplace(c.key, u - c.normal * c.normal.dot(u));
   }

@@ -65,7 +65,9 @@ struct Measured {
 
 Proximity::Proximity(CollisionMesh mesh, double list_radius) : mesh_(std::move(mesh)) {
   double largest = 0;
-  for (double d : mesh_.distance) largest = std::max(largest, d < 1.0 ? d : 0.0);
+  for (std::size_t v = 0; v < mesh_.fabric.size(); ++v)
+    if (mesh_.wanted_distance[v] < 1.0)
+      largest = std::max(largest, std::min(mesh_.wanted_distance[v], mesh_.distance_limit[v]));
   list_radius_ = std::max(list_radius, 2.5 * largest);
 }
 
@@ -175,11 +177,9 @@ void Proximity::update(const Positions& x) {
       measured[i].distance = p.norm();
       if (measured[i].distance > 0) c.normal = p / measured[i].distance;
       c.anchor = p;
-      c.distance = mesh_.distance[c.nodes[0]];
-      for (int k = 0; k < 4; ++k) {
-        c.distance = std::min(c.distance, mesh_.distance[c.nodes[k]]);
-        c.friction += 0.25 * mesh_.friction[c.nodes[k]];
-      }
+      const std::span<const int> nodes(c.nodes), a = nodes.first(i < vt ? 1 : 2), b = nodes.last(i < vt ? 3 : 2);
+      c.distance = mesh_.pair_distance(a, b);
+      c.friction = mesh_.pair_friction(a, b);
     }
   });
 

@@ -48,19 +48,23 @@ void BlockMatrix::set_zero() {
                   [&](int begin, int end) { std::fill(values_.begin() + begin, values_.begin() + end, 0.0f); });
 }
 
-void BlockMatrix::add_outer_products(const std::array<int, 16>& slots, const std::array<Eigen::Vector3f, 4>& rows) {
-  // Column by column a block is (a b c | a b c | a b c) times (x x x | y y y | z z z): eight lanes and one number.
-  __m256 left[4], right[4];
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector3f& r = rows[i];
-    left[i] = _mm256_setr_ps(r[0], r[1], r[2], r[0], r[1], r[2], r[0], r[1]);
-    right[i] = _mm256_setr_ps(r[0], r[0], r[0], r[1], r[1], r[1], r[2], r[2]);
-  }
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) {
-      float* to = values(slots[4 * i + j]);
-      _mm256_storeu_ps(to, _mm256_fmadd_ps(left[i], right[j], _mm256_loadu_ps(to)));
-      to[8] += rows[i][2] * rows[j][2];
+void BlockMatrix::add_products(const std::array<int, 36>& slots, const std::array<Eigen::Matrix3f, 6>& rows) {
+  // Of each row, column by column, a block is (a b c | a b c | a b c) times (x x x | y y y | z z z): eight lanes and
+  // one number.
+  __m256 left[6][3], right[6][3];
+  for (int i = 0; i < 6; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const float a = rows[i](k, 0), b = rows[i](k, 1), c = rows[i](k, 2);
+      left[i][k] = _mm256_setr_ps(a, b, c, a, b, c, a, b);
+      right[i][k] = _mm256_setr_ps(a, a, a, b, b, b, c, c);
+    }
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      float* to = values(slots[6 * i + j]);
+      __m256 sum = _mm256_loadu_ps(to);
+      for (int k = 0; k < 3; ++k) sum = _mm256_fmadd_ps(left[i][k], right[j][k], sum);
+      _mm256_storeu_ps(to, sum);
+      to[8] += rows[i].col(2).dot(rows[j].col(2));
     }
 }
 

@@ -41,8 +41,8 @@ class BlockMatrix {
   const float* values(int slot) const { return values_.data() + 9 * static_cast<std::size_t>(slot); }
   /// Adds to one block. Calls on different slots may run at the same time.
   void add(int slot, const Eigen::Matrix3f& block);
-  /// Adds rowᵢ rowⱼᵀ to the blocks slots[4 i + j] of four nodes.
-  void add_outer_products(const std::array<int, 16>& slots, const std::array<Eigen::Vector3f, 4>& rows);
+  /// Adds rowsᵢᵀ rowsⱼ to the blocks slots[6 i + j] of six nodes.
+  void add_products(const std::array<int, 36>& slots, const std::array<Eigen::Matrix3f, 6>& rows);
 
   /// y = A x for rows [begin, end).
   void multiply_rows(int begin, int end, const NodeVector& x, NodeVector& y) const;

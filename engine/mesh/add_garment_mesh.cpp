@@ -75,7 +75,9 @@ void add_garment_mesh(const Garment& garment, const GarmentMesh& shape, int garm
   const int base = static_cast<int>(cloth.x.size());
   const int first_panel = static_cast<int>(cloth.panels.size());
   if (mesh.group_names.empty()) mesh.group_names.push_back(garment.name.empty() ? "mesh" : garment.name);
+  std::vector<double> grain;
   for (const std::string& name : mesh.group_names) {
+    grain.push_back(grain_of(garment, name));
     cloth.panels.push_back({garment_index, name, "", fabric_of(garment, name, nullptr, cloth), 0.0});
   }
   cloth.x.insert(cloth.x.end(), mesh.vertices.begin(), mesh.vertices.end());
@@ -86,6 +88,7 @@ void add_garment_mesh(const Garment& garment, const GarmentMesh& shape, int garm
     std::array<Vec2, 3> flat = mesh.corner_uv[t];
     for (Vec2& corner : flat) corner *= shape.uv_unit;
     const int group = mesh.triangle_group.empty() ? 0 : mesh.triangle_group[t];
+    turn_to_grain(grain[static_cast<std::size_t>(group)], flat);
     double& length = cloth.panels[static_cast<std::size_t>(first_panel + group)].edge_length;
     for (std::size_t i = 0; i < 3; ++i) length += (flat[(i + 1) % 3] - flat[i]).norm();
     sides[static_cast<std::size_t>(group)] += 3;

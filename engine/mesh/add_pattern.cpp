@@ -106,8 +106,8 @@ std::string edge_name(const Pattern& pattern, const PatternStitch::Side& side) {
 }
 
 /// Meshes one panel into the cloth; returns the cloth vertices of each edge from start to end.
-std::vector<std::vector<int>> add_panel(const Panel& panel, const std::vector<int>& counts, double h, int panel_index,
-                                        std::size_t garment, Cloth& cloth) {
+std::vector<std::vector<int>> add_panel(const Panel& panel, const std::vector<int>& counts, double h, double grain,
+                                        int panel_index, std::size_t garment, Cloth& cloth) {
   std::vector<Vec2> outline;
   std::vector<std::vector<int>> edges(counts.size());
   const int base = static_cast<int>(cloth.x.size());
@@ -129,6 +129,7 @@ std::vector<std::vector<int>> add_panel(const Panel& panel, const std::vector<in
       flat[i] = mesh.vertices[static_cast<std::size_t>(triangle[i])];
       triangle[i] += base;
     }
+    turn_to_grain(grain, flat);
     cloth.triangles.push_back(triangle);
     cloth.flat.push_back(flat);
     cloth.triangle_panel.push_back(panel_index);
@@ -156,7 +157,8 @@ void add_pattern(const Garment& garment, const Pattern& pattern, int garment_ind
     const int index = static_cast<int>(cloth.panels.size());
     const int fabric = fabric_of(garment, panel.name, panel.fabric ? &*panel.fabric : nullptr, cloth);
     cloth.panels.push_back({garment_index, panel.name, panel.label, fabric, garment.edge_length});
-    edge_vertices.push_back(add_panel(panel, counts[p], garment.edge_length, index, g, cloth));
+    edge_vertices.push_back(
+        add_panel(panel, counts[p], garment.edge_length, grain_of(garment, panel.name), index, g, cloth));
     for (std::size_t e = 0; e < panel.edges.size(); ++e) {
       const std::vector<int>& vertices = edge_vertices[p][e];
       cloth.labels.push_back({garment_index, panel.name + "/" + std::to_string(e), vertices});

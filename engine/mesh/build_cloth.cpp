@@ -48,11 +48,22 @@ int fabric_of(const Garment& garment, const std::string& panel_name, const Fabri
   return static_cast<int>(cloth.fabrics.size()) - 1;
 }
 
+double grain_of(const Garment& garment, const std::string& panel_name) {
+  const auto chosen = garment.panel_grain.find(panel_name);
+  return chosen != garment.panel_grain.end() ? chosen->second : garment.grain;
+}
+
+void turn_to_grain(double grain, std::array<Vec2, 3>& flat) {
+  if (grain == 0) return;
+  const Eigen::Rotation2Dd turn(-grain);
+  for (Vec2& corner : flat) corner = turn * corner;
+}
+
 Cloth build_cloth(const Scene& scene) {
   Cloth cloth;
   for (std::size_t g = 0; g < scene.garments.size(); ++g) {
     const Garment& garment = scene.garments[g];
-    const std::size_t first_vertex = cloth.x.size();
+    const std::size_t first_vertex = cloth.x.size(), first_triangle = cloth.triangles.size();
     const int index = static_cast<int>(g);
     if (const auto* pattern = std::get_if<Pattern>(&garment.shape)) {
       add_pattern(garment, *pattern, index, cloth);
@@ -60,6 +71,7 @@ Cloth build_cloth(const Scene& scene) {
       add_garment_mesh(garment, std::get<GarmentMesh>(garment.shape), index, cloth);
     }
     cloth.vertex_garment.resize(cloth.x.size(), index);
+    add_creases(garment, index, static_cast<int>(first_vertex), static_cast<int>(first_triangle), cloth);
     warn_of_size(garment, g, first_vertex, cloth);
   }
   return cloth;

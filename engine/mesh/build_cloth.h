@@ -11,7 +11,8 @@ inline constexpr long kMaxClothVertices = 2'000'000;
 
 /// Meshes every garment of the scene. Pattern panels: edges sampled uniformly in arc length with ceil(length / h)
 /// segments, both sides of a stitch with the larger of the two counts (so ease spreads evenly); inside as
-/// mesh_polygon(); placed by the panel's rotation and translation; wound outward, flat corners as drawn (signed area
+/// mesh_polygon(); placed by the panel's rotation and translation; wound outward, flat corners as drawn, turned about
+/// the drawing's origin so that the warp (Garment::panel_grain, else Garment::grain) runs along +v (signed area
 /// negative where the loop is clockwise). Garment meshes: as given, flat = UV · uv_unit, stitches made conforming
 /// (conforming_seams.h). Fabric of a panel: Garment::panel_fabrics, else Panel::fabric, else the garment's.
 /// Nothing is sewn: seam_pairs lists what merge_seams() (sewing.h) will unite. Warnings carry a code before a colon

@@ -140,6 +140,11 @@ std::vector<int> merge_closed_seams(Cloth& cloth, double gap) {
     std::erase(label.vertices, -1);
     label.vertices.erase(std::unique(label.vertices.begin(), label.vertices.end()), label.vertices.end());
   }
+  for (Crease& crease : cloth.creases) {
+    crease.v0 = renumbered[static_cast<std::size_t>(crease.v0)];
+    crease.v1 = renumbered[static_cast<std::size_t>(crease.v1)];
+  }
+  std::erase_if(cloth.creases, [](const Crease& c) { return c.v0 < 0 || c.v1 < 0 || c.v0 == c.v1; });
   cloth.seam_pairs.clear();
   for (const SeamPair& pair : open) {
     const int a = renumbered[static_cast<std::size_t>(pair.a)], b = renumbered[static_cast<std::size_t>(pair.b)];

@@ -12,7 +12,7 @@ TriangleStretch triangle_stretch(const std::vector<std::array<Vec2, 3>>& flat, c
                                  const Positions& x) {
   assert(flat.size() == triangles.size());
   const size_t n = triangles.size();
-  TriangleStretch result{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n),
+  TriangleStretch result{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n), std::vector<double>(n),
                          std::vector<double>(n)};
   for (size_t t = 0; t < n; ++t) {
     Mat2 rest;
@@ -30,6 +30,9 @@ TriangleStretch triangle_stretch(const std::vector<std::array<Vec2, 3>>& flat, c
     const double diagonal = std::max((f.col(0) + f.col(1)).norm(), (f.col(0) - f.col(1)).norm());
     result.bias[t] = diagonal / std::numbers::sqrt2 - 1;
     result.area[t] = 0.5 * std::abs(twice_area);
+    const Mat2 metric = f.transpose() * f;
+    const double middle = 0.5 * metric.trace(), away = std::hypot(0.5 * (metric(0, 0) - metric(1, 1)), metric(0, 1));
+    result.smallest[t] = std::sqrt(std::max(0.0, middle - away)) - 1;
   }
   return result;
 }
@@ -44,16 +47,16 @@ StretchStatistics stretch_statistics(const std::vector<double>& stretch, const s
   StretchStatistics statistics;
   if (!(total > 0)) return statistics;
   double below = 0;
-  bool found = false;
   for (int t : order) {
     if (area[t] == 0) continue;
     statistics.mean += stretch[t] * area[t] / total;
-    below += area[t];
-    if (!found && below >= 0.99 * total) {
-      statistics.p99 = stretch[t];
-      found = true;
-    }
+    if (below == 0) statistics.min = stretch[t];
+    const auto reaches = [&](double share) { return below < share * total && below + area[t] >= share * total; };
+    if (reaches(0.01)) statistics.p01 = stretch[t];
+    if (reaches(0.5)) statistics.median = stretch[t];
+    if (reaches(0.99)) statistics.p99 = stretch[t];
     statistics.max = stretch[t];
+    below += area[t];
   }
   return statistics;
 }

@@ -13,12 +13,13 @@ namespace toile {
 /// larger of |F (e_u ± e_v)| / √2 − 1. A triangle of no rest area has 0 and area 0.
 struct TriangleStretch {
   std::vector<double> warp, weft, bias, area;
+  std::vector<double> smallest;  ///< the lesser principal stretch ratio minus one
 };
 TriangleStretch triangle_stretch(const std::vector<std::array<Vec2, 3>>& flat, const std::vector<Triangle>& triangles,
                                  const Positions& x);
 
-/// Area-weighted mean, 99th percentile (least value that 99 % of the area does not exceed) and maximum. Sizes must
-/// match; all 0 without area.
+/// Area-weighted mean, percentiles (the least value that so much of the area does not exceed), least and largest value.
+/// Sizes must match; all 0 without area.
 StretchStatistics stretch_statistics(const std::vector<double>& stretch, const std::vector<double>& area);
 
 }  // namespace toile

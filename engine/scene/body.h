@@ -4,6 +4,7 @@
 #include "engine/mesh/triangle_mesh.h"
 #include "engine/types.h"
 
+#include <optional>
 #include <variant>
 
 namespace toile {
@@ -43,7 +44,8 @@ struct DressFormBody {
 
 struct Body {
   std::variant<MeshBody, SphereBody, CapsuleBody, CylinderBody, BoxBody, PlaneBody, DressFormBody> shape;
-  double friction = 0.3;  ///< Coulomb coefficient against every fabric
+  std::optional<double> friction =
+      0.3;  ///< Coulomb coefficient against every fabric; none: each fabric's friction_body
 };
 
 }  // namespace toile

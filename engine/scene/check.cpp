@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 namespace toile {
 namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi * (1 + 1e-12);  // [rad]
 
 bool has_panel(const Garment& garment, const std::string& name) {
   if (const auto* pattern = std::get_if<Pattern>(&garment.shape)) {
@@ -42,7 +45,19 @@ double check_garment(const Garment& garment, std::size_t index, bool has_body, s
     }
     check_fabric(fabric, place, problems);
   }
+  if (!(std::abs(garment.grain) <= kTurn)) {
+    problems.push_back({pointer + "/grain_deg", "grain_range", "The grain must be within a turn."});
+  }
+  for (const auto& [name, grain] : garment.panel_grain) {
+    const std::string place = pointer + "/panel_grain_deg/" + pointer_token(name);
+    if (!has_panel(garment, name)) {
+      problems.push_back({place, "unknown_panel", "The garment has no panel \"" + name + "\"."});
+    }
+    if (!(std::abs(grain) <= kTurn)) problems.push_back({place, "grain_range", "The grain must be within a turn."});
+  }
   check_pins(garment, has_body, pointer + "/pins", problems);
+  check_trims(garment, pointer, problems);
+  check_folds(garment, pointer, problems);
   return vertices;
 }
 
@@ -85,6 +100,7 @@ std::vector<Problem> scene_problems(const Scene& scene) {
     problems.push_back(
         {"/garments", "too_many_vertices", "The garments need more than two million vertices at these edge lengths."});
   }
+  check_friction_pairs(scene, problems);
   if (scene.body) check_body(*scene.body, problems);
   check_solver(scene.solver, problems);
   return problems;

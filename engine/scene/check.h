@@ -20,8 +20,8 @@ inline constexpr double kMaxEdgeLength = 0.1;   ///< [m]
 /// Codes: empty_scene, empty_garment, not_finite, edge_length_range, fabric_value, unknown_panel, too_many_panels,
 /// too_many_vertices, duplicate_panel, too_few_edges, vertex_out_of_range, open_panel_loop, zero_length_edge,
 /// zero_area_panel, self_crossing_panel, stitch_missing_panel, stitch_missing_edge, edge_stitched_twice, missing_uv,
-/// zero_area_triangle, non_manifold_mesh, unknown_label, unknown_edge, empty_box, times_not_rising,
-/// attached_without_body, body_value, empty_body, solver_value.
+/// zero_area_triangle, non_manifold_mesh, unknown_label, unknown_edge, empty_box, times_not_rising, pin_value,
+/// attached_without_body, body_value, empty_body, solver_value, trim_value, selects_no_edge.
 std::vector<Problem> scene_problems(const Scene& scene);
 
 /// Throws InputError with all of scene_problems() if there are any.

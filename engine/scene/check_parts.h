@@ -16,8 +16,20 @@ void check_garment_mesh(const GarmentMesh& shape, const std::string& pointer, st
 
 void check_fabric(const Fabric& fabric, const std::string& pointer, std::vector<Problem>& problems);
 
+void check_friction_pairs(const Scene& scene, std::vector<Problem>& problems);
+
+/// Seams and folds; `pointer` is the garment's.
+void check_folds(const Garment& garment, const std::string& pointer, std::vector<Problem>& problems);
+
 void check_body(const Body& body, std::vector<Problem>& problems);
 
+/// Whether what is selected exists, of a pin or of anything that selects in the same way, at the pointer.
+void check_selection(const Selection& select, const Garment& garment, const std::string& pointer,
+                     std::vector<Problem>& problems);
+
 void check_pins(const Garment& garment, bool has_body, const std::string& pointer, std::vector<Problem>& problems);
+
+/// Elastics, drawcords and trims of a garment whose pointer is given.
+void check_trims(const Garment& garment, const std::string& pointer, std::vector<Problem>& problems);
 
 }  // namespace toile

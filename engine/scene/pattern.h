@@ -35,7 +35,8 @@ struct PatternEdge {
 };
 
 /// The edges form one closed loop in list order. A counter-clockwise loop shows the right side of the fabric along +z
-/// of the panel's frame; a clockwise one along −z. Grain (warp) along +y.
+/// of the panel's frame; a clockwise one along −z. Grain (warp) along +y, unless the
+/// garment turns it.
 struct Panel {
   std::string name;
   std::string label;           ///< "", "body", "arm", "leg"

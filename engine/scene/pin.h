@@ -3,6 +3,7 @@
 
 #include "engine/types.h"
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -38,12 +39,21 @@ struct PinMoved {
   Vec3 pivot = Vec3::Zero();
   std::vector<PinKeyFrame> key_frames;  ///< times rising
 };
-/// Held to the body's surface point that is nearest after assembly (a waistband, a strapless top).
-struct PinAttached {};
+/// Attached to the body where assembly puts it (a waistband, a strapless top): held there, or sliding along the body's
+/// surface with Coulomb friction, without leaving it.
+struct PinAttached {
+  bool slides = false;
+  std::optional<double> friction;  ///< of what slides; none: the body's
+};
+
+using Selection = std::variant<PinVertices, PinEdge, PinLabel, PinBox, PinNearest>;
 
 struct Pin {
-  std::variant<PinVertices, PinEdge, PinLabel, PinBox, PinNearest> select;
+  Selection select;
   std::variant<PinFixed, PinMoved, PinAttached> hold;
+  /// Whether the tangent is held, too: along the mesh edges between its vertices the cloth leaves in the plane in which
+  /// it lies at the start of the drape. Without it, pinned vertices are a hinge.
+  bool clamp = false;
 };
 
 }  // namespace toile

@@ -4,6 +4,7 @@
 #include "engine/parallel/reduce.h"
 #include "engine/solve/contact_system.h"
 #include "engine/solve/static_system.h"
+#include "engine/solve/tension_system.h"
 #include "engine/terms/air_drag.h"
 #include "engine/terms/contact.h"
 #include "engine/terms/gravity.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <tuple>
 
 namespace toile {
 
@@ -64,18 +66,22 @@ struct StepProblem {
 }  // namespace
 
 struct BackwardEuler::Implementation {
-  Implementation(const Cloth& cloth, const SolverOptions& solver_options)
+  Implementation(const Cloth& cloth, const SolverOptions& solver_options, const Trimmings& trimmings)
       : options(solver_options),
-        system(cloth),
+        system(cloth, trimmings),
         matrix(system.make_matrix()),
-        preconditioner(system.nodes()),
+        tension(trimmings, system.place(), matrix),
+        preconditioner(system.unknowns()),
         mass_in_cloth_order(system.nodes()) {
     double squares = 0;
     for (int i = 0; i < system.nodes(); ++i) {
       mass_in_cloth_order[system.order()[i]] = system.mass()[i];
       squares += system.mass()[i] * system.mass()[i];
     }
+    for (const RigidBody& body : system.trims().bodies()) squares += body.mass * body.mass;
     weight_norm = kGravity * std::sqrt(squares);
+    unknown_place = system.place();
+    for (int i = system.nodes(); i < system.unknowns(); ++i) unknown_place.push_back(i);
   }
 
   /// Weight and air drag, which need no stencil.
@@ -88,9 +94,9 @@ struct BackwardEuler::Implementation {
 
   /// b = M (v₀ − v) + h F(x, v) on free nodes, 0 on held ones; returns its norms (computeRhs). `force` holds the terms'
   /// forces.
-  Norms finish_residual(const StepProblem& p, const Positions& v) {
+  Norms finish_residual(const StepProblem& p, const Positions& x, const Positions& v) {
     b.resize(v.size());
-    const auto squares = deterministic_sums<2>(system.nodes(), kNodesPerTask, [&](int begin, int end) {
+    auto squares = deterministic_sums<2>(system.nodes(), kNodesPerTask, [&](int begin, int end) {
       std::array<double, 2> sums{};
       for (int i = begin; i < end; ++i) {
         b[i] = (*p.held)[i] ? Vec3::Zero()
@@ -100,13 +106,23 @@ struct BackwardEuler::Implementation {
       }
       return sums;
     });
+    const TrimSystem& trims = system.trims();
+    trims.residual(x, v, p.h, options.air_drag, options.gravity, force, b);
+    for (int t = 0; t < trims.trims(); ++t) {
+      for (int node : {trims.center_node(t), trims.rotation_node(t)}) {
+        squares[0] += b[node].squaredNorm();
+        squares[1] += std::pow(trims.bodies()[t].mass, 2) * v[node].squaredNorm();
+      }
+    }
     return {std::sqrt(squares[0]), std::sqrt(squares[1])};
   }
 
   Norms residual(const StepProblem& p, const Positions& x, const Positions& v) {
     system.forces(x, v, p.fabric_factor, force);
+    tension.add_forces(x, v, p.fabric_factor, force);
+    system.trims().add_forces(x, v, p.fabric_factor, force);
     contacts.add_forces(x, options.contact_stiffness, force);
-    return finish_residual(p, v);
+    return finish_residual(p, x, v);
   }
 
   /// computeRhs and computeLhs at once: both need the same strains.
@@ -114,32 +130,47 @@ struct BackwardEuler::Implementation {
     {
       Stopwatch watch(times.derivatives);
       system.forces_and_matrix(x, v, {p.h * p.h, p.h, p.fabric_factor}, force, matrix);
+      tension.add_forces_and_matrix(x, v, {p.h * p.h, p.h, p.fabric_factor}, force, matrix);
+      system.trims().add_forces_and_matrix(x, v, {p.h * p.h, p.h, p.fabric_factor}, options.air_drag, force, matrix);
     }
     Stopwatch watch(times.assembly);
     contacts.add_forces_and_matrix(x, options.contact_stiffness, p.h * p.h, force, matrix);
-    right_hand_side.resize(system.nodes());
-    const Norms norms = finish_residual(p, v);
-    parallel_for_each(system.nodes(), kNodesPerTask, [&](int i) {
+    right_hand_side.resize(system.unknowns());
+    const Norms norms = finish_residual(p, x, v);
+    parallel_for_each(system.unknowns(), kNodesPerTask, [&](int i) {
       right_hand_side[i] = {float(b[i].x()), float(b[i].y()), float(b[i].z()), 0};
-      const double inertia = system.mass()[i] + p.h * air_drag_dissipation_hessian(options.air_drag, system.mass()[i]);
-      matrix.add(i, float(inertia) * Eigen::Matrix3f::Identity());
+      if (i < system.nodes()) {
+        const double m = system.mass()[i], inertia = m + p.h * air_drag_dissipation_hessian(options.air_drag, m);
+        matrix.add(i, float(inertia) * Eigen::Matrix3f::Identity());
+      }
       if ((*p.held)[i]) {
         preconditioner.hold(i);
       } else {
         Eigen::Matrix3f diagonal = Eigen::Map<const Eigen::Matrix3f>(matrix.values(i));
         if (contacts.coupled().size() > 0) diagonal += contacts.coupled().diagonal(i);
+        if (tension.wide()) diagonal += tension.wide()->diagonal(i);
         preconditioner.set(i, diagonal);
       }
     });
     return norms;
   }
 
+  /// A copy of the trims that stands at `states`, and the positions and velocities of all nodes.
+  std::tuple<TrimSystem, Positions, Positions> with_trims(Positions x, Positions v,
+                                                          const std::vector<RigidState>& states) const {
+    TrimSystem trims = system.trims();
+    trims.begin_step(states, x, v);
+    return {std::move(trims), std::move(x), std::move(v)};
+  }
+
   SolverOptions options;
   StaticSystem system;
   BlockMatrix matrix;
+  TensionSystem tension;
   BlockJacobi preconditioner;
   std::vector<double> mass_in_cloth_order;
-  double weight_norm = 0;  ///< root of the sum of squared nodal weights [N]
+  std::vector<int> unknown_place;  ///< cloth's index → solver's, and trims' nodes where they are
+  double weight_norm = 0;          ///< root of the sum of squared nodal weights [N]
   ContactSystem contacts;
   ConjugateGradient conjugate_gradient;
   Positions force, b;
@@ -147,8 +178,8 @@ struct BackwardEuler::Implementation {
   NodeVector last_acceleration;  ///< (v − v₀)/h of the last accepted step [m/s²]; empty when there is none
 };
 
-BackwardEuler::BackwardEuler(const Cloth& sewn, const SolverOptions& options)
-    : implementation_(std::make_unique<Implementation>(sewn, options)) {}
+BackwardEuler::BackwardEuler(const Cloth& sewn, const SolverOptions& options, const Trimmings& trimmings)
+    : implementation_(std::make_unique<Implementation>(sewn, options, trimmings)) {}
 BackwardEuler::~BackwardEuler() = default;
 BackwardEuler::BackwardEuler(BackwardEuler&&) noexcept = default;
 BackwardEuler& BackwardEuler::operator=(BackwardEuler&&) noexcept = default;
@@ -156,21 +187,26 @@ BackwardEuler& BackwardEuler::operator=(BackwardEuler&&) noexcept = default;
 StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor, std::vector<Contact>& contacts,
                                 const Kinematic& kinematic, StepTimes& times) {
   Implementation& s = *implementation_;
-  const std::vector<int>&order = s.system.order(), &place = s.system.place();
-  const int nodes = s.system.nodes();
-  const Positions x0 = permuted(state.x, order), v0 = permuted(state.v, order);
-  std::vector<char> held(nodes);
+  const std::vector<int>& order = s.system.order();
+  const int nodes = s.system.unknowns(), cloth_nodes = s.system.nodes();
+  Positions x0 = permuted(state.x, order), v0 = permuted(state.v, order);
+  s.system.trims().begin_step(state.trims, x0, v0);
+  std::vector<char> held(nodes, 0);
   Positions v(nodes), x(nodes), v_trial(nodes), x_trial(nodes);
-  for (int i = 0; i < nodes; ++i) {
+  for (int i = 0; i < cloth_nodes; ++i) {
     const int vertex = order[i];
     held[i] = kinematic.held[vertex] || !(s.system.mass()[i] > 0);
     v[i] = kinematic.held[vertex] ? Vec3((kinematic.target[vertex] - x0[i]) / h) : v0[i];
     if (!(s.system.mass()[i] > 0) && !kinematic.held[vertex]) v[i].setZero();
     x[i] = x0[i] + h * v[i];
   }
+  for (int i = cloth_nodes; i < nodes; ++i) {
+    v[i] = v0[i];
+    x[i] = x0[i] + h * v[i];
+  }
   {
     Stopwatch watch(times.assembly);
-    s.contacts.rebuild(contacts, place);
+    s.contacts.rebuild(contacts, s.unknown_place);
   }
   const StepProblem problem{&v0, &held, h, stiffness_factor};
   const double at_rest = std::min(s.options.newton_tolerance, kRestFraction * h * s.weight_norm);
@@ -188,7 +224,7 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
       Stopwatch watch(times.linear_solve);
       outcome.cg_iterations += s.conjugate_gradient
                                    .solve(s.matrix, s.contacts.coupled(), s.preconditioner, s.right_hand_side,
-                                          s.options.cg_tolerance, s.options.cg_iterations, s.delta_v)
+                                          s.options.cg_tolerance, s.options.cg_iterations, s.delta_v, s.tension.wide())
                                    .iterations;
     }
     Stopwatch watch(times.line_search);
@@ -226,9 +262,12 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
   for (int i = 0; i < nodes; ++i) {
     const Vec3 a = (v[i] - v0[i]) / h;
     s.last_acceleration[i] = {float(a.x()), float(a.y()), float(a.z()), 0};
+    if (i >= cloth_nodes) continue;
     state.x[order[i]] = x[i];
     state.v[order[i]] = v[i];
   }
+  state.trims = s.system.trims().states(x, v);
+  s.system.advance_slip(x);
   advance_anchors(contacts, s.options.contact_stiffness, state.x);
   return outcome;
 }
@@ -241,6 +280,13 @@ Energies BackwardEuler::energies(const State& state, const std::vector<Contact>&
   Energies e;
   e.membrane = s.system.membrane_energy_sum(x);
   e.bending = s.system.bending_energy_sum(x);
+  e.tension = s.tension.energy(x);
+  const auto [trims, x_all, v_all] = s.with_trims(x, permuted(state.v, s.system.order()), state.trims);
+  e.attachment = trims.energy(x_all);
+  for (int t = 0; t < trims.trims(); ++t) {
+    e.kinetic += kinetic_energy_of(trims.bodies()[t], state.trims[t]);
+    if (s.options.gravity) e.gravity += gravity_energy(trims.bodies()[t].mass, state.trims[t].center);
+  }
   if (!contacts.empty()) {
     ContactSystem touching;
     touching.rebuild(contacts, s.system.place());
@@ -254,22 +300,50 @@ Energies BackwardEuler::energies(const State& state, const std::vector<Contact>&
   return e;
 }
 
+std::vector<TermEnergy> BackwardEuler::energies_by_term(const Positions& x,
+                                                        const std::vector<RigidState>& trim_states) const {
+  const Implementation& s = *implementation_;
+  const Positions nodes = permuted(x, s.system.order());
+  std::vector<TermEnergy> energies = s.system.energies(nodes);
+  double gravity = 0;
+  if (s.options.gravity)
+    for (std::size_t v = 0; v < x.size(); ++v) gravity += gravity_energy(masses()[v], x[v]);
+  if (s.tension.any()) energies.push_back({"tension", s.tension.energy(nodes)});
+  if (!trim_states.empty()) {
+    const auto [trims, all_nodes, still] = s.with_trims(nodes, Positions(nodes.size(), Vec3::Zero()), trim_states);
+    energies.push_back({"attachment", trims.energy(all_nodes)});
+    for (int t = 0; t < trims.trims() && s.options.gravity; ++t)
+      gravity += gravity_energy(trims.bodies()[t].mass, trim_states[t].center);
+  }
+  energies.push_back({"gravity", gravity});
+  return energies;
+}
+
 std::vector<double> BackwardEuler::kinetic_energy(const State& state) const {
   std::vector<double> energy(state.v.size());
   for (std::size_t i = 0; i < energy.size(); ++i) energy[i] = 0.5 * masses()[i] * state.v[i].squaredNorm();
+  const std::vector<RigidBody>& bodies = implementation_->system.trims().bodies();
+  for (std::size_t t = 0; t < bodies.size(); ++t) energy.push_back(kinetic_energy_of(bodies[t], state.trims[t]));
   return energy;
 }
 
-Positions BackwardEuler::static_forces(const Positions& positions, const std::vector<Contact>& contacts) const {
+Positions BackwardEuler::static_forces(const Positions& positions, const std::vector<Contact>& contacts,
+                                       const std::vector<RigidState>& trim_states) const {
   const Implementation& s = *implementation_;
-  const Positions x = permuted(positions, s.system.order()), v(x.size(), Vec3::Zero());
+  const auto [trims, x, moving] =
+      s.with_trims(permuted(positions, s.system.order()), Positions(positions.size(), Vec3::Zero()), trim_states);
+  const Positions v(x.size(), Vec3::Zero());
   Positions force;
   s.system.forces(x, v, 1, force);
+  s.tension.add_forces(x, v, 1, force);
+  trims.add_forces(x, v, 1, force);
+  for (int t = 0; t < trims.trims() && s.options.gravity; ++t)
+    force[trims.center_node(t)] -= gravity_gradient(trims.bodies()[t].mass);
   ContactSystem touching;
-  touching.rebuild(contacts, s.system.place());
+  touching.rebuild(contacts, s.unknown_place);
   touching.add_forces(x, s.options.contact_stiffness, force);
   for (int i = 0; i < s.system.nodes(); ++i) force[i] += s.nodal_force(i, Vec3::Zero());
-  return permuted(force, s.system.place());
+  return permuted(force, s.unknown_place);
 }
 
 std::vector<double> BackwardEuler::contact_forces(const Positions& positions,

@@ -4,15 +4,18 @@
 
 #include "engine/contact/contact.h"
 #include "engine/mesh/cloth.h"
+#include "engine/report.h"
 #include "engine/scene/solver_options.h"
+#include "engine/solve/trimmings.h"
 
 #include <memory>
 
 namespace toile {
 
-/// Positions [m] and velocities [m/s], per vertex of the cloth.
+/// Positions [m] and velocities [m/s], per vertex of the cloth, and the rigid trims in the order of the trimmings.
 struct State {
   Positions x, v;
+  std::vector<RigidState> trims = {};
 };
 
 /// Held vertices move to `target` by the end of the step, in a straight line; the others' targets are not read. Both
@@ -36,9 +39,10 @@ struct StepTimes {
   double line_search = 0;   ///< the residual at trial points
 };
 
-/// Energies by term [J].
+/// Energies by term [J]; tension: of elastics and drawcords; attachment: of trims' springs;
+/// gravity and kinetic with the trims' share.
 struct Energies {
-  double membrane = 0, bending = 0, gravity = 0, contact = 0, kinetic = 0;
+  double membrane = 0, bending = 0, tension = 0, attachment = 0, gravity = 0, contact = 0, kinetic = 0;
 };
 
 /// Solves  M (v − v₀) = h F(x₀ + h v, v)  for v (the seed's equation 1); Newton's method as its equation 4, with the
@@ -47,9 +51,9 @@ struct Energies {
 /// time per object; results do not depend on the number of threads.
 class BackwardEuler {
  public:
-  /// Takes flat shapes, fabrics and topology of a sewn cloth; its positions are not read. Throws std::invalid_argument
-  /// for a triangle of no flat area.
-  BackwardEuler(const Cloth& sewn, const SolverOptions& options);
+  /// Takes flat shapes, fabrics and topology of a sewn cloth, and what is sewn onto it; its positions are not read.
+  /// Throws std::invalid_argument for a triangle of no flat area.
+  BackwardEuler(const Cloth& sewn, const SolverOptions& options, const Trimmings& trimmings = {});
   ~BackwardEuler();
   BackwardEuler(BackwardEuler&&) noexcept;
   BackwardEuler& operator=(BackwardEuler&&) noexcept;
@@ -66,9 +70,14 @@ class BackwardEuler {
 
   const std::vector<double>& masses() const;  ///< lumped, per vertex [kg]
   Energies energies(const State& state, const std::vector<Contact>& contacts) const;
-  std::vector<double> kinetic_energy(const State& state) const;  ///< per vertex [J]
+  /// What each static term and gravity store at these positions; a new term of StaticSystem is in it by itself. Where
+  /// there are elastics, drawcords or trims, `tension` and `attachment` follow, and gravity has the trims' share.
+  std::vector<TermEnergy> energies_by_term(const Positions& x, const std::vector<RigidState>& trims = {}) const;
+  std::vector<double> kinetic_energy(const State& state) const;  ///< per vertex, then per trim [J]
   /// Net force of all terms at rest, gravity and contacts (with friction) included, on every vertex, held ones too [N].
-  Positions static_forces(const Positions& x, const std::vector<Contact>& contacts) const;
+  /// Those of the trims follow, two each: the force on the centre [N], and the torque over RigidBody::gyration [N].
+  Positions static_forces(const Positions& x, const std::vector<Contact>& contacts,
+                          const std::vector<RigidState>& trims = {}) const;
   /// Per vertex, the sum of the magnitudes of its shares of contact forces [N].
   std::vector<double> contact_forces(const Positions& x, const std::vector<Contact>& contacts) const;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace toile {
@@ -48,23 +49,58 @@ std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth
   return chosen;
 }
 
-std::vector<HeldVertex> held_vertices(const Scene& scene, const Cloth& sewn, const std::vector<int>& attached) {
+std::vector<SlidingVertex> sliding_vertices(const Scene& scene, const Cloth& apart, const Cloth& sewn,
+                                            const std::vector<int>& old_to_new) {
+  std::vector<double> cloth_friction(sewn.x.size(), 0);
+  for (std::size_t t = 0; t < sewn.triangles.size(); ++t)
+    for (int v : sewn.triangles[t])
+      cloth_friction[v] =
+          std::max(cloth_friction[v], sewn.fabrics[sewn.panels[sewn.triangle_panel[t]].fabric].friction_body);
+  std::map<int, double> friction;
+  for (std::size_t g = 0; g < scene.garments.size(); ++g)
+    for (const Pin& pin : scene.garments[g].pins) {
+      const auto* attached = std::get_if<PinAttached>(&pin.hold);
+      if (!attached || !attached->slides || !scene.body) continue;
+      const bool named = std::holds_alternative<PinVertices>(pin.select);
+      for (int v : pinned_vertices(pin, static_cast<int>(g), named ? sewn : apart)) {
+        const int vertex = named ? v : old_to_new[v];
+        if (vertex < 0) continue;
+        const double of_body = scene.body->friction.value_or(cloth_friction[vertex]);
+        friction.try_emplace(vertex, attached->friction.value_or(of_body));
+      }
+    }
+  std::vector<SlidingVertex> sliding;
+  for (const auto& [vertex, coefficient] : friction) sliding.push_back({vertex, coefficient});
+  return sliding;
+}
+
+std::vector<HeldVertex> held_vertices(const Scene& scene, const Cloth& sewn, const std::vector<int>& attached,
+                                      const std::vector<SlidingVertex>& sliding) {
   std::vector<HeldVertex> held;
-  std::set<int> taken;
+  std::set<int> taken, clamped;
   const auto hold = [&](int v, const PinMoved* motion) {
     if (taken.insert(v).second) held.push_back({v, sewn.x[v], motion});
   };
   for (std::size_t g = 0; g < scene.garments.size(); ++g)
     for (std::size_t p = 0; p < scene.garments[g].pins.size(); ++p) {
       const Pin& pin = scene.garments[g].pins[p];
-      if (std::holds_alternative<PinAttached>(pin.hold)) continue;
+      const auto* fastened = std::get_if<PinAttached>(&pin.hold);
+      // Assembly knows all others by their numbers before sewing.
+      const bool by_assembly = fastened && (fastened->slides || !std::holds_alternative<PinVertices>(pin.select));
+      if (by_assembly && !pin.clamp) continue;
       const std::vector<int> vertices = pinned_vertices(pin, static_cast<int>(g), sewn);
+      if (pin.clamp) clamped.insert(vertices.begin(), vertices.end());
+      if (by_assembly) continue;
       if (vertices.empty())
         throw InputError("/garments/" + std::to_string(g) + "/pins/" + std::to_string(p), "pin_selects_nothing",
                          "the pin selects no vertex of the garment");
       for (int v : vertices) hold(v, std::get_if<PinMoved>(&pin.hold));
     }
-  for (int v : attached) hold(v, nullptr);
+  std::set<int> slides;
+  for (const SlidingVertex& s : sliding) slides.insert(s.vertex);
+  for (int v : attached)
+    if (!slides.contains(v)) hold(v, nullptr);
+  for (HeldVertex& h : held) h.clamped = clamped.contains(h.vertex);
   std::sort(held.begin(), held.end(), [](const HeldVertex& a, const HeldVertex& b) { return a.vertex < b.vertex; });
   return held;
 }

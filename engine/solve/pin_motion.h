@@ -1,6 +1,7 @@
 #pragma once
 // Which vertices the scene's pins hold, and where they are at a time.
 
+#include "engine/contact/sliding_contacts.h"
 #include "engine/mesh/cloth.h"
 #include "engine/scene/scene.h"
 
@@ -12,16 +13,25 @@ namespace toile {
 /// Throws InputError (`vertex_out_of_range`) for a vertex that the garment does not have.
 std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth);
 
+/// Vertices that pins attach to the body so that they slide, each once (the first pin counts). Pins are asked of the
+/// cloth before it is sewn, as assembly asks them, and vertices renumbered by old_to_new; those that name vertices, of
+/// the sewn one.
+std::vector<SlidingVertex> sliding_vertices(const Scene& scene, const Cloth& apart, const Cloth& sewn,
+                                            const std::vector<int>& old_to_new);
+
 /// One held vertex: where it started and the motion it follows (none: it stays).
 struct HeldVertex {
   int vertex;
   Vec3 start;
   const PinMoved* motion;  ///< points into the scene; null: fixed
+  bool clamped = false;    ///< the tangent is held, too (solve/clamps.h)
 };
 
 /// Every vertex that the scene's pins hold; where two pins hold one vertex, the first pin's motion counts. `attached`
-/// lists the vertices of pins that hold to the body. Throws InputError (`pin_selects_nothing`).
-std::vector<HeldVertex> held_vertices(const Scene& scene, const Cloth& sewn, const std::vector<int>& attached);
+/// lists the vertices of pins that hold to the body, `sliding` those of them that are not held. Throws InputError
+/// (`pin_selects_nothing`).
+std::vector<HeldVertex> held_vertices(const Scene& scene, const Cloth& sewn, const std::vector<int>& attached,
+                                      const std::vector<SlidingVertex>& sliding = {});
 
 /// Position at time t [s]: rotated about the pivot, then translated, linearly between key frames.
 Vec3 position_at(const HeldVertex& held, double t);

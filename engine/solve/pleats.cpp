@@ -1,5 +1,6 @@
 #include "engine/solve/pleats.h"
 
+#include "engine/geometry/mean.h"
 #include "engine/mesh/sewing.h"
 #include "engine/mesh/topology.h"
 #include "engine/quality/intersections.h"
@@ -159,12 +160,9 @@ std::optional<Positions> laid(const FlatPanel& panel, const std::vector<Pleat>& 
   const double drop = kDrop * panel.edge_length;
   for (int v : panel.vertices) folding.height[v] = -drop * layer_of(pleats, ways, flat[v]);
   for (const std::vector<int>& set : close ? near_sets(panel.own, x) : std::vector<std::vector<int>>{}) {
-    Vec3 mean = Vec3::Zero();
+    const Vec3 mean = mean_of(x, set);
     double height = 0;
-    for (int v : set) {
-      mean += x[v] / static_cast<double>(set.size());
-      height += folding.height[v] / static_cast<double>(set.size());
-    }
+    for (int v : set) height += folding.height[v] / static_cast<double>(set.size());
     for (int v : set) {
       x[v] = mean;
       folding.height[v] = height;

@@ -1,5 +1,7 @@
 #include "engine/solve/position_based.h"
 
+#include "engine/geometry/mean.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -90,13 +92,9 @@ void PositionBased::set_pulls(const std::vector<SeamPull>& pulls) {
     if (set.size() > 1) meeting_.push_back(std::move(set));
 }
 
-Vec3 PositionBased::mean_of(const std::vector<int>& vertices, const Positions& x) const {
-  Vec3 sum = Vec3::Zero();
-  for (int v : vertices) {
-    if (mobility[v] == 0) return x[v];
-    sum += x[v];
-  }
-  return sum / static_cast<double>(vertices.size());
+Vec3 PositionBased::meeting_point(const std::vector<int>& vertices, const Positions& x) const {
+  const auto held = std::find_if(vertices.begin(), vertices.end(), [&](int v) { return mobility[v] == 0; });
+  return held != vertices.end() ? x[*held] : mean_of(x, vertices);
 }
 
 void PositionBased::limit_moves(const Positions& x, Positions& to) {
@@ -126,7 +124,7 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
   std::vector<double> allowed(meeting_.size(), 0.0);  // distance from the mean
   std::vector<char> cutting(meeting_.size(), 0);
   for (std::size_t i = 0; i < meeting_.size(); ++i) {
-    const Vec3 mean = mean_of(meeting_[i], start);
+    const Vec3 mean = meeting_point(meeting_[i], start);
     for (int v : meeting_[i]) allowed[i] = std::max(allowed[i], (start[v] - mean).norm() - 0.5 * options.closing);
     const BodyField* body = body_[meeting_[i].front()];
     cutting[i] = body && body->distance(mean) < kCutting;
@@ -135,7 +133,7 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
   const auto draw = [&](bool last) {
     for (std::size_t i = 0; i < meeting_.size(); ++i) {
       if (last && cutting[i]) continue;
-      const Vec3 mean = mean_of(meeting_[i], x);
+      const Vec3 mean = meeting_point(meeting_[i], x);
       for (int v : meeting_[i]) {
         const Vec3 arm = x[v] - mean;
         const double length = arm.norm();

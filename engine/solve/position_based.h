@@ -48,7 +48,6 @@ class PositionBased {
 
   double largest_move() const { return largest_move_; }  ///< of any vertex in the last step [m]
   long contacts() const { return static_cast<long>(contacts_.size()); }
-  void forget_motion() { carried_.clear(); }
 
  private:
   struct Length {
@@ -56,7 +55,7 @@ class PositionBased {
     double rest;
   };
   void project(Positions& x, const Length& c, double share) const;
-  Vec3 mean_of(const std::vector<int>& vertices, const Positions& x) const;
+  Vec3 meeting_point(const std::vector<int>& vertices, const Positions& x) const;
 
   Proximity proximity_;
   std::vector<const BodyField*> body_;

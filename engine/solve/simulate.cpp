@@ -1,13 +1,12 @@
 #include "engine/solve/simulate.h"
 
-#include "engine/contact/body_contacts.h"
-#include "engine/contact/friction_memory.h"
-#include "engine/contact/proximity.h"
 #include "engine/monitor.h"
 #include "engine/solve/backward_euler.h"
+#include "engine/solve/clamps.h"
 #include "engine/solve/relaxation.h"
 #include "engine/solve/rest.h"
 #include "engine/solve/time_step.h"
+#include "engine/solve/touching.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,55 +18,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kForceCheckInterval = 0.01;  // [s]
-constexpr double kListRadius = 5e-3;          // [m] at least: lets fine meshes fall at over a metre a second
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// Finds what touches, and remembers friction from step to step.
-class Touching {
- public:
-  Touching(const Cloth& cloth, const SimulationScene& scene)
-      : proximity_(make_collision_mesh(cloth, scene.options.contact_distance), kListRadius), body_(scene.body) {
-    double friction = 0;
-    for (const Fabric& fabric : cloth.fabrics) friction = std::max(friction, fabric.friction_body);
-    body_options_.friction = scene.body_friction >= 0 ? scene.body_friction : friction;
-    body_options_.offset = scene.options.body_offset;
-    if (body_options_.offset > 0) return;
-    for (const ClothPanel& panel : cloth.panels)
-      body_options_.offset =
-          std::max(body_options_.offset, default_body_offset(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
-  }
-
-  std::vector<Contact> detect(const Positions& x) {
-    proximity_.update(x);
-    std::vector<Contact> contacts = proximity_.contacts();
-    if (body_) {
-      const std::vector<Contact> more = body_contacts(proximity_.mesh(), *body_, x, body_options_);
-      contacts.insert(contacts.end(), more.begin(), more.end());
-    }
-    memory_.recall(contacts, x);
-    return contacts;
-  }
-
-  /// Cuts short the moves since detect() that could have crossed cloth; returns their number.
-  long limit(const Positions& from, Positions& to) const {
-    return proximity_.limit_moves(from, to);
-  }
-
-  void remember(const std::vector<Contact>& contacts, const Positions& x) { memory_.store(contacts, x); }
-
- private:
-  Proximity proximity_;
-  const BodyField* body_;
-  BodyContactOptions body_options_;
-  FrictionMemory memory_;
-};
 
 /// Of the net force over nodal weight, on free vertices.
 double rms_residual(const Positions& force, const std::vector<double>& mass, const std::vector<char>& held) {
   double sum = 0;
   long count = 0;
-  for (std::size_t v = 0; v < force.size(); ++v) {
+  for (std::size_t v = 0; v < held.size(); ++v) {
     if (held[v] || mass[v] <= 0) continue;
     sum += force[v].squaredNorm() / std::pow(mass[v] * kGravity, 2);
     ++count;
@@ -79,58 +37,89 @@ bool finite(const Positions& positions) {
   return std::all_of(positions.begin(), positions.end(), [](const Vec3& p) { return p.allFinite(); });
 }
 
+bool finite(const std::vector<RigidState>& trims) {
+  return std::all_of(trims.begin(), trims.end(), [](const RigidState& t) {
+    return t.center.allFinite() && t.orientation.coeffs().allFinite() && t.velocity.allFinite() &&
+           t.angular_velocity.allFinite();
+  });
+}
+
+void stop(State& state) {
+  std::fill(state.v.begin(), state.v.end(), Vec3::Zero());
+  for (RigidState& trim : state.trims) trim.velocity = trim.angular_velocity = Vec3::Zero();
+}
+
 }  // namespace
 
 double estimated_progress(const SimulationState& state, const SolverOptions& options) {
   return std::max(state.time / (state.time + 1.0), state.time / options.simulated_time_limit);
 }
 
+TouchingOptions touching_options(const SimulationScene& scene) {
+  return {scene.body,           scene.body_friction, scene.options.contact_distance, scene.options.body_offset,
+          scene.friction_pairs, scene.sliding};
+}
+
 Simulation simulate(Cloth& cloth, const SimulationScene& scene, const SimulationProgress& progress) {
   const SolverOptions& options = scene.options;
-  const std::size_t n = cloth.x.size();
   Simulation result;
-  BackwardEuler solver(cloth, options);
-  Touching touching(cloth, scene);
+  Touching touching(cloth, touching_options(scene));
+  Cloth clamped = cloth;
+  std::vector<HeldVertex> held_points = scene.held;
+  const std::vector<HeldVertex> clamp_points = add_clamps(clamped, scene.held);
+  held_points.insert(held_points.end(), clamp_points.begin(), clamp_points.end());
+  BackwardEuler solver(clamped, options, scene.trimmings);
+  const std::size_t vertices = cloth.x.size(), n = clamped.x.size();
   TimeStep time_step(options);
   RestDetector rest(options);
   StepTimes step_times;
-  State state{cloth.x, Positions(n, Vec3::Zero())};
-  Kinematic kinematic{std::vector<char>(n, 0), cloth.x};
-  for (const HeldVertex& held : scene.held) kinematic.held[held.vertex] = 1;
+  State state{clamped.x, Positions(n, Vec3::Zero()), {}};
+  for (const RigidTrim& trim : scene.trimmings.trims) state.trims.push_back(trim.start);
+  Kinematic kinematic{std::vector<char>(n, 0), clamped.x};
+  for (const HeldVertex& held : held_points) kinematic.held[held.vertex] = 1;
   const double moving_until = std::max(last_key_frame(scene.held), options.relaxation_time);
 
   double t = 0, next_force_check = 0;
   bool balanced = false;
-  std::vector<double> energy(n, 0.0);
+  std::vector<double> energy(vertices, 0.0);
   result.stop_reason = "time_limit";
   while (t < options.simulated_time_limit) {
     const Clock::time_point begun = Clock::now();
     const double h = time_step.h();
     std::vector<Contact> contacts = touching.detect(state.x);
     result.times.collisions += seconds_since(begun);
-    for (const HeldVertex& held : scene.held) kinematic.target[held.vertex] = position_at(held, t + h);
+    for (const HeldVertex& held : held_points) kinematic.target[held.vertex] = position_at(held, t + h);
 
     const Positions before = state.x;
+    const std::vector<RigidState> trims_before = state.trims;
     const StepOutcome outcome = solver.step(state, h, relaxation_factor(t, options), contacts, kinematic, step_times);
     result.newton_iterations += outcome.newton_iterations;
     result.cg_iterations += outcome.cg_iterations;
-    if (outcome.accepted && finite(state.x)) {
+    if (outcome.accepted && finite(state.x) && finite(state.trims)) {
       const long limited = touching.limit(before, state.x);
       if (limited > 0)
         for (std::size_t v = 0; v < n; ++v) state.v[v] = (state.x[v] - before[v]) / h;
       result.limited_vertices += limited;
       touching.remember(contacts, state.x);
-      if (relaxing(t, options)) std::fill(state.v.begin(), state.v.end(), Vec3::Zero());
+      if (relaxing(t, options)) stop(state);
       t += h;
       ++result.steps;
       time_step.accepted();
       energy = solver.kinetic_energy(state);
+      const auto first_clamp = energy.begin() + static_cast<std::ptrdiff_t>(vertices);
+      energy.erase(first_clamp, first_clamp + static_cast<std::ptrdiff_t>(n - vertices));
       bool quiet = rest.update(energy, h);
+      // A trim is one node among thousands, but its swing is not noise: each has to be at rest.
+      if (std::any_of(energy.begin() + static_cast<std::ptrdiff_t>(vertices), energy.end(),
+                      [&](double e) { return e >= options.rest_kinetic_energy; })) {
+        rest.reset();
+        quiet = false;
+      }
       if (quiet && t >= moving_until && options.rest_residual > 0) {
         // The check costs about half a step, so it is not made at each one.
         if (t >= next_force_check) {
-          balanced = rms_residual(solver.static_forces(state.x, contacts), solver.masses(), kinematic.held) <
-                     options.rest_residual;
+          balanced = rms_residual(solver.static_forces(state.x, contacts, state.trims), solver.masses(),
+                                  kinematic.held) < options.rest_residual;
           next_force_check = t + kForceCheckInterval;
         }
         quiet = balanced;
@@ -141,6 +130,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
       if (options.early_stop && result.stop_reason == "at_rest") break;
     } else {
       state.x = before;
+      state.trims = trims_before;
       time_step.rejected();
       if (time_step.too_small()) {
         result.stop_reason = "step_too_small";
@@ -152,7 +142,6 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
     if (!progress({t, kinetic, rest.percentile(), h, static_cast<long>(contacts.size()), &state.x})) throw Cancelled{};
   }
 
-  cloth.x = state.x;
   result.time = t;
   result.splits = time_step.splits();
   result.times.derivatives = step_times.derivatives;
@@ -161,9 +150,18 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   result.times.line_search = step_times.line_search;
   for (double e : energy) result.kinetic_energy += e;
   result.contacts = touching.detect(state.x);
-  result.net_force = solver.static_forces(state.x, result.contacts);
+  result.net_force = solver.static_forces(state.x, result.contacts, state.trims);
+  result.trims = state.trims;
   result.contact_force = solver.contact_forces(state.x, result.contacts);
   result.mass = solver.masses();
+  result.energies = solver.energies_by_term(state.x, state.trims);
+  result.cloth_contacts = touching.cloth_contacts();
+  result.contact_distance = touching.contact_distance();
+  result.net_force.resize(vertices);
+  result.contact_force.resize(vertices);
+  result.mass.resize(vertices);
+  state.x.resize(vertices);
+  cloth.x = std::move(state.x);
   return result;
 }
 

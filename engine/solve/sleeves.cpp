@@ -1,5 +1,6 @@
 #include "engine/solve/sleeves.h"
 
+#include "engine/geometry/mean.h"
 #include "engine/mesh/sewing.h"
 #include "engine/solve/body_parts.h"
 
@@ -47,12 +48,6 @@ struct PanelVertices {
   std::vector<int> vertices;
   Vec3 normal = Vec3::Zero();
 };
-
-Vec3 mean_of(const Positions& points) {
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& p : points) sum += p;
-  return sum / static_cast<double>(points.size());
-}
 
 Positions chosen(const Positions& x, const std::vector<int>& vertices) {
   Positions points;

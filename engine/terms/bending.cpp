@@ -2,9 +2,10 @@
 
 #include "engine/geometry/dihedral.h"
 
-#include <algorithm>
+#include <Eigen/Cholesky>
+
 #include <cmath>
-#include <numeric>
+#include <numbers>
 
 namespace toile {
 
@@ -14,144 +15,157 @@ namespace {
 /// square would leave single precision.
 constexpr double kSteepest = 1e6;
 
-/// One triangle's view of one of its edges.
-struct Side {
-  int low, high;  ///< the edge's ends, sorted
-  int triangle, corner;
+/// Places of hinge i's four points (edge's start, end, inner tip, outer tip) in the stencil.
+constexpr std::array<std::array<int, 4>, 3> kHinge = {{{1, 2, 0, 3}, {2, 0, 1, 4}, {0, 1, 2, 5}}};
+
+StencilPoints<4> points_of(const StencilPoints<6>& x, int hinge) {
+  const auto& at = kHinge[hinge];
+  return {x[at[0]], x[at[1]], x[at[2]], x[at[3]]};
+}
+
+/// θ − θ₀ of the hinges and their gradients; zero where there is none.
+struct Angles {
+  Vec3 bent = Vec3::Zero();
+  std::array<Vec12, 3> gradient;
 };
 
-double angle_of(const BendingStencil&, const StencilPoints<4>& x) { return dihedral_angle(x[0], x[1], x[2], x[3]); }
+/// An angle's difference in [−π, π], continuous where a fold at rest near ±180° is pressed through it.
+double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
-StencilVector<4> gradient_of(const StencilPoints<4>& x) { return dihedral_angle_gradient(x[0], x[1], x[2], x[3]); }
-
-StencilVector<4> stacked(const StencilPoints<4>& v) {
-  StencilVector<4> s;
-  for (int i = 0; i < 4; ++i) s.segment<3>(3 * i) = v[i];
-  return s;
+/// `robust`: hinges that have collapsed count as if they were not there.
+Angles angles_of(const BendingStencil& s, const StencilPoints<6>& x, bool robust) {
+  Angles a;
+  for (int i = 0; i < 3; ++i) {
+    a.gradient[i].setZero();
+    if (!s.hinge[i]) continue;
+    const StencilPoints<4> p = points_of(x, i);
+    const Vec12 g = dihedral_angle_gradient(p[0], p[1], p[2], p[3]);
+    if (robust && !(g.squaredNorm() < kSteepest * kSteepest)) continue;
+    a.gradient[i] = g;
+    a.bent[i] = wrapped(dihedral_angle(p[0], p[1], p[2], p[3]) - s.rest_angle[i]);
+  }
+  return a;
 }
 
-std::vector<Side> sorted_sides(const Cloth& cloth) {
-  std::vector<Side> sides;
-  sides.reserve(3 * cloth.triangles.size());
-  for (int t = 0; t < static_cast<int>(cloth.triangles.size()); ++t)
-    for (int c = 0; c < 3; ++c) {
-      const int a = cloth.triangles[t][(c + 1) % 3], b = cloth.triangles[t][(c + 2) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), t, c});
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-  });
-  return sides;
+Vec3 rates_of(const Angles& a, const StencilPoints<6>& v) {
+  Vec3 rate = Vec3::Zero();
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 4; ++k) rate[i] += a.gradient[i].segment<3>(3 * k).dot(v[kHinge[i][k]]);
+  return rate;
 }
 
-/// What one side of a hinge brings from its flat panel.
-struct FlatSide {
-  double length, area, bending, damping;
-};
+using AngleGradients = Eigen::Matrix<double, 3, 18>;
 
-FlatSide flat_side(const Cloth& cloth, const Side& side) {
-  const auto& flat = cloth.flat[side.triangle];
-  const Vec2 edge = flat[(side.corner + 2) % 3] - flat[(side.corner + 1) % 3];
-  const Vec2 other = flat[side.corner] - flat[(side.corner + 1) % 3];
-  const Fabric& fabric = cloth.fabrics.at(cloth.panels.at(cloth.triangle_panel[side.triangle]).fabric);
-  const double normal_angle = std::atan2(edge.x(), -edge.y());
-  return {edge.norm(), 0.5 * std::abs(edge.x() * other.y() - edge.y() * other.x()),
-          hinge_bending_stiffness(fabric.bending_stiffness, normal_angle), fabric.bending_damping};
+AngleGradients stacked(const Angles& a) {
+  AngleGradients g = AngleGradients::Zero();
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 4; ++k) g.block<1, 3>(i, 3 * kHinge[i][k]) += a.gradient[i].segment<3>(3 * k).transpose();
+  return g;
 }
+
+Mat3 stiffness_of(const BendingStencil& s) { return s.factor.transpose() * s.factor; }
+
+bool bends_linearly(const BendingLaw* law) { return !law || law->linear(); }
+
+/// ∂E/∂θ [N·m].
+Vec3 elastic_moment(const BendingStencil& s, const BendingLaw* law, const Vec3& bent) {
+  if (bends_linearly(law)) return s.factor.transpose() * (s.factor * bent);
+  return law->area * law->fit.transpose() * law_moment(*law, law->fit * bent);
+}
+
+/// Lᵀ of a symmetric positive semi-definite matrix L Lᵀ.
+Mat3 upper_factor(const Mat3& m) { return Eigen::LLT<Mat3>(m).matrixU(); }
 
 }  // namespace
 
-double hinge_bending_stiffness(const Directional& bending, double angle) {
-  const double mean = 0.5 * (bending.warp + bending.weft);
-  const double d0 = 0.5 * (mean + bending.bias);
-  const double d2 = 0.5 * (bending.weft - bending.warp);
-  const double d4 = 0.5 * (mean - bending.bias);
-  const double least = 0.1 * std::min({bending.warp, bending.weft, bending.bias});
-  return std::max(least, d0 + 1.5 * d2 * std::cos(2 * angle) + d4 * std::cos(4 * angle));
+double bending_energy(const BendingStencil& s, const BendingLaw* law, const StencilPoints<6>& x) {
+  const Vec3 bent = angles_of(s, x, false).bent;
+  if (bends_linearly(law)) return 0.5 * (s.factor * bent).squaredNorm();
+  return law->area * law_energy(*law, law->fit * bent);
 }
 
-std::vector<BendingStencil> bending_stencils(const Cloth& cloth) {
-  const std::vector<Side> sides = sorted_sides(cloth);
-  std::vector<BendingStencil> stencils;
-  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-    const Side &first = sides[i], &second = sides[i + 1];
-    if (first.low != second.low || first.high != second.high) continue;
-    const Triangle& t = cloth.triangles[first.triangle];
-    BendingStencil s;
-    s.nodes = {t[(first.corner + 1) % 3], t[(first.corner + 2) % 3], t[first.corner],
-               cloth.triangles[second.triangle][second.corner]};
-    const FlatSide a = flat_side(cloth, first), b = flat_side(cloth, second);
-    const double length = 0.5 * (a.length + b.length);
-    s.stiffness = 0.5 * (a.bending + b.bending) * length * length / (a.area + b.area);
-    s.rest_angle = 0;
-    s.damping = 0.5 * (a.damping + b.damping);
-    stencils.push_back(s);
+StencilVector<6> bending_gradient(const BendingStencil& s, const BendingLaw* law, const StencilPoints<6>& x) {
+  const Angles a = angles_of(s, x, false);
+  return stacked(a).transpose() * elastic_moment(s, law, a.bent);
+}
+
+StencilMatrix<6> bending_hessian(const BendingStencil& s, const BendingLaw* law, const StencilPoints<6>& x) {
+  const Angles a = angles_of(s, x, false);
+  const Mat3 tangent = bends_linearly(law)
+                           ? stiffness_of(s)
+                           : Mat3(law->area * law->fit.transpose() * law_tangent(*law, law->fit * a.bent) * law->fit);
+  const Vec3 moment = elastic_moment(s, law, a.bent);
+  const AngleGradients g = stacked(a);
+  StencilMatrix<6> hessian = g.transpose() * tangent * g;
+  for (int i = 0; i < 3; ++i) {
+    if (!s.hinge[i]) continue;
+    const StencilPoints<4> p = points_of(x, i);
+    const Mat12 second = moment[i] * dihedral_angle_hessian(p[0], p[1], p[2], p[3]);
+    for (int k = 0; k < 4; ++k)
+      for (int l = 0; l < 4; ++l)
+        hessian.block<3, 3>(3 * kHinge[i][k], 3 * kHinge[i][l]) += second.block<3, 3>(3 * k, 3 * l);
   }
-  return stencils;
+  return hessian;
 }
 
-double bending_energy(const BendingStencil& s, const StencilPoints<4>& x) {
-  const double off = angle_of(s, x) - s.rest_angle;
-  return 0.5 * s.stiffness * off * off;
+StencilMatrix<6> bending_hessian_psd(const BendingStencil& s, const BendingLaw* law, const StencilPoints<6>& x) {
+  const Angles a = angles_of(s, x, false);
+  const AngleGradients g = stacked(a);
+  if (bends_linearly(law)) return g.transpose() * stiffness_of(s) * g;
+  return g.transpose() * (law->area * law->fit.transpose() * law_secant(*law, law->fit * a.bent) * law->fit) * g;
 }
 
-StencilVector<4> bending_gradient(const BendingStencil& s, const StencilPoints<4>& x) {
-  return s.stiffness * (angle_of(s, x) - s.rest_angle) * gradient_of(x);
+double bending_dissipation(const BendingStencil& s, const StencilPoints<6>& x, const StencilPoints<6>& v) {
+  return 0.5 * s.damping * (s.factor * rates_of(angles_of(s, x, false), v)).squaredNorm();
 }
 
-StencilMatrix<4> bending_hessian(const BendingStencil& s, const StencilPoints<4>& x) {
-  return bending_hessian_psd(s, x) +
-         s.stiffness * (angle_of(s, x) - s.rest_angle) * dihedral_angle_hessian(x[0], x[1], x[2], x[3]);
+StencilVector<6> bending_dissipation_gradient(const BendingStencil& s, const StencilPoints<6>& x,
+                                              const StencilPoints<6>& v) {
+  const Angles a = angles_of(s, x, false);
+  return s.damping * stacked(a).transpose() * (stiffness_of(s) * rates_of(a, v));
 }
 
-StencilMatrix<4> bending_hessian_psd(const BendingStencil& s, const StencilPoints<4>& x) {
-  const StencilVector<4> g = gradient_of(x);
-  return s.stiffness * g * g.transpose();
+StencilMatrix<6> bending_dissipation_hessian(const BendingStencil& s, const StencilPoints<6>& x) {
+  return s.damping * bending_hessian_psd(s, nullptr, x);
 }
 
-double bending_dissipation(const BendingStencil& s, const StencilPoints<4>& x, const StencilPoints<4>& v) {
-  const double rate = gradient_of(x).dot(stacked(v));
-  return 0.5 * s.damping * s.stiffness * rate * rate;
+Vec3 bending_curvature(const BendingStencil& s, const BendingLaw& law, const StencilPoints<6>& x) {
+  return law.fit * angles_of(s, x, true).bent;
 }
 
-StencilVector<4> bending_dissipation_gradient(const BendingStencil& s, const StencilPoints<4>& x,
-                                              const StencilPoints<4>& v) {
-  const StencilVector<4> g = gradient_of(x);
-  return s.damping * s.stiffness * g.dot(stacked(v)) * g;
-}
-
-StencilMatrix<4> bending_dissipation_hessian(const BendingStencil& s, const StencilPoints<4>& x) {
-  return s.damping * bending_hessian_psd(s, x);
-}
-
-std::array<Vec3, 4> bending_force(const BendingStencil& s, const StencilPoints<4>& x, const StencilPoints<4>& v,
-                                  double fabric_factor) {
-  const StencilVector<4> g = gradient_of(x);
-  std::array<Vec3, 4> force;
-  if (!(g.squaredNorm() < kSteepest * kSteepest)) {
-    force.fill(Vec3::Zero());
-    return force;
-  }
-  const double moment = -fabric_factor * s.stiffness * (angle_of(s, x) - s.rest_angle + s.damping * g.dot(stacked(v)));
-  for (int i = 0; i < 4; ++i) force[i] = moment * g.segment<3>(3 * i);
+std::array<Vec3, 6> bending_force(const BendingStencil& s, const BendingLaw* law, const StencilPoints<6>& x,
+                                  const StencilPoints<6>& v, double fabric_factor) {
+  const Angles a = angles_of(s, x, true);
+  const Vec3 moment =
+      fabric_factor * (elastic_moment(s, law, a.bent) + s.damping * s.factor.transpose() * (s.factor * rates_of(a, v)));
+  std::array<Vec3, 6> force;
+  force.fill(Vec3::Zero());
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 4; ++k) force[kHinge[i][k]] -= moment[i] * a.gradient[i].segment<3>(3 * k);
   return force;
 }
 
-void bending_response(const BendingStencil& s, const StencilPoints<4>& x, const StencilPoints<4>& v,
-                      const SystemWeights& weights, BendingResponse& out) {
-  const StencilVector<4> g = gradient_of(x);
-  if (!(g.squaredNorm() < kSteepest * kSteepest)) {
-    out.force.fill(Vec3::Zero());
-    out.row.fill(Eigen::Vector3f::Zero());
-    return;
+void bending_response(const BendingStencil& s, const BendingLaw* law, const StencilPoints<6>& x,
+                      const StencilPoints<6>& v, const SystemWeights& weights, BendingResponse& out) {
+  const Angles a = angles_of(s, x, true);
+  const Vec3 damped = s.damping * s.factor.transpose() * (s.factor * rates_of(a, v));
+  const Vec3 moment = weights.fabric * (elastic_moment(s, law, a.bent) + damped);
+  out.force.fill(Vec3::Zero());
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 4; ++k) out.force[kHinge[i][k]] -= moment[i] * a.gradient[i].segment<3>(3 * k);
+
+  Mat3 factor;
+  if (bends_linearly(law)) {
+    factor = std::sqrt(weights.fabric * (weights.stiffness + weights.dissipation * s.damping)) * s.factor;
+  } else {
+    const Mat3 total =
+        weights.stiffness * law_secant(*law, law->fit * a.bent) + weights.dissipation * s.damping * law->stiffness;
+    factor = std::sqrt(weights.fabric * law->area) * upper_factor(total) * law->fit;
   }
-  const double k = weights.fabric * s.stiffness;
-  const double moment = -k * (angle_of(s, x) - s.rest_angle + s.damping * g.dot(stacked(v)));
-  const double root = std::sqrt(k * (weights.stiffness + weights.dissipation * s.damping));
-  for (int i = 0; i < 4; ++i) {
-    out.force[i] = moment * g.segment<3>(3 * i);
-    out.row[i] = (root * g.segment<3>(3 * i)).cast<float>();
-  }
+  for (auto& rows : out.rows) rows.setZero();
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 4; ++k)
+      out.rows[kHinge[i][k]] += (factor.col(i) * a.gradient[i].segment<3>(3 * k).transpose()).cast<float>();
 }
 
 }  // namespace toile

@@ -1,68 +1,78 @@
 #pragma once
-// Bending across the edges of the mesh: hinges, with their dissipation.
+// Bending: the curvature of every triangle, fitted to the angles of its hinges, with its dissipation.
 
 #include "engine/mesh/cloth.h"
+#include "engine/terms/bending_law.h"
 #include "engine/terms/stencil.h"
 
 namespace toile {
 
-/// Elastic energy of a hinge [J] and its stiffness k [N·m/rad]:
-///   ½ k (θ − θ₀)²,  k = D l² / (A₀ + A₁)
-/// [Grinspun et al. 2003; Tamstorf & Grinspun 2013], θ the dihedral angle (geometry/dihedral.h), l the edge and A the
-/// two triangles in the flat pattern (l: the mean where two flats differ). D [N·m] is the textile one: the stiffness
-/// per width of cylindrical bending, which this coefficient gives exactly on an equilateral mesh (shared/validation;
-/// other published coefficients differ by factors of 3 to 4). Dissipation potential [W]: R = ½ β k θ̇², θ̇ = ∇θ·v [after
-/// Sánchez-Banderas & Otaduy 2018]. Velocity derivative: exact. Position derivative of the dissipative force: dropped
-/// (it is not symmetric, and of the order of the angle's change in a step relative to what is kept). The angle is that
-/// of the points, whatever the winding of the triangles, so the hinge is right where a stitch turns the fabric over
-/// (right_wrong).
+/// A triangle and its three neighbours. With θ the dihedral angles (geometry/dihedral.h) of its hinges, θ₀ those of its
+/// rest shape and κ = C (θ − θ₀) the curvature of the quadratic surface through its vertices (terms/curvature_fit.h):
+///   E = area · ½ κᵀ D κ = ½ (θ − θ₀)ᵀ K (θ − θ₀)   [J],   K = Fᵀ F [N·m/rad]
+/// D is the orthotropic plate's tensor with the textile's (cylindrical) D in warp, weft and bias: on vertices of any
+/// cylinder the energy is exact in any direction and on any mesh (the quadratic fit of Grinspun, Gingold, Reisman &
+/// Zorin 2006, "Computing discrete shape operators on general meshes", written in hinge angles). On an equilateral mesh
+/// and with Poisson's ratio −1/3 it is the hinge model ½ D l² θ² / (A₀ + A₁), which is what hinges alone can do: on the
+/// panel mesher's meshes those are off by 10 % with the direction, and have no warp and weft to speak of.
+/// At an edge of the cloth, where a hinge is missing, the curvature is that of least energy: no moment across the edge.
+/// Dissipation potential [W]: R = ½ β θ̇ᵀ K θ̇, θ̇ = ∇θ·v [after Sánchez-Banderas & Otaduy 2018]. Velocity derivative:
+/// exact. Position derivative of the dissipative force: dropped (it is not symmetric, and of the order of the angles'
+/// change in a step relative to what is kept). Angles are those of the points, whatever the neighbours' winding, so a
+/// hinge is right where a stitch turns the fabric over (right_wrong).
 struct BendingStencil {
-  std::array<int, 4>
-      nodes;          ///< the edge's ends as the first triangle runs along it, its tip, the second triangle's tip
-  double stiffness;   ///< k [N·m]
-  double rest_angle;  ///< θ₀ [rad]
-  double damping;     ///< β [s]
+  std::array<int, 6> nodes;  ///< the corners, then the tip across the edge opposite to each: where there is none, the
+                             ///< corner itself, and `hinge` is false
+  std::array<bool, 3> hinge{};  ///< opposite to corner i
+  Mat3 factor;                  ///< F
+  Vec3 rest_angle;              ///< θ₀ [rad]
+  double damping;               ///< β [s]
 };
 
-/// D of a hinge whose edge has its normal at `angle` from weft in the flat pattern [N·m]: bending across an edge
-/// happens along the edge's normal. The textile's law through its three measured directions is
-///   D(φ) = d₀ + d₂ cos 2φ + d₄ cos 4φ
-/// (the orthotropic plate's). A lattice of hinges averages its coefficients over the three edge directions with the
-/// weight (8/9) cos⁴: the mean passes unchanged, the second harmonic only by ⅔, the fourth by ⅙. So the coefficient is
-///   d₀ + 3/2 d₂ cos 2φ + d₄ cos 4φ,
-/// which restores the difference between warp and weft (averaged over lattice orientations), and leaves the fourth
-/// harmonic, whose correction would alias. At least a tenth of the smallest of the three.
-double hinge_bending_stiffness(const Directional& bending, double angle);
+/// The stencils of a cloth, and, where a fabric bends non-linearly or with friction, a law for each (else none).
+struct BendingStencils {
+  std::vector<BendingStencil> stencils;
+  std::vector<BendingLaw> laws;  ///< of the same length, or empty; linear where BendingLaw::linear()
+};
 
-/// One stencil for each edge of two triangles. Across a seam or two fabrics: the mean of both sides' D and β.
-std::vector<BendingStencil> bending_stencils(const Cloth& cloth);
+/// One stencil for each triangle that has a hinge and some bending stiffness. Each triangle bends as its own fabric;
+/// neighbours' wings are unfolded into its plane. Across an edge in cloth.clamps the tangent is prescribed by the
+/// clamp's tip, and a triangle that is a clamp's holding part has no stencil; an edge in cloth.creases has that rest
+/// angle and its hinge's stiffness times that factor. On an edge of more than two triangles each one is hinged to the
+/// next.
+BendingStencils bending_stencils(const Cloth& cloth);
 
-double bending_energy(const BendingStencil& s, const StencilPoints<4>& x);
-StencilVector<4> bending_gradient(const BendingStencil& s, const StencilPoints<4>& x);
-StencilMatrix<4> bending_hessian(const BendingStencil& s, const StencilPoints<4>& x);
-/// The Gauss–Newton part k ∇θ ∇θᵀ: exact at the rest angle.
-StencilMatrix<4> bending_hessian_psd(const BendingStencil& s, const StencilPoints<4>& x);
+/// `law`: null for linear bending.
+double bending_energy(const BendingStencil& s, const BendingLaw* law, const StencilPoints<6>& x);
+StencilVector<6> bending_gradient(const BendingStencil& s, const BendingLaw* law, const StencilPoints<6>& x);
+StencilMatrix<6> bending_hessian(const BendingStencil& s, const BendingLaw* law, const StencilPoints<6>& x);
+/// The Gauss–Newton part ∇θ ∂²E/∂θ² ∇θᵀ, with the secant in place of the tangent where the law softens: exact at the
+/// rest shape, positive semi-definite everywhere.
+StencilMatrix<6> bending_hessian_psd(const BendingStencil& s, const BendingLaw* law, const StencilPoints<6>& x);
 
 /// R [W]
-double bending_dissipation(const BendingStencil& s, const StencilPoints<4>& x, const StencilPoints<4>& v);
+double bending_dissipation(const BendingStencil& s, const StencilPoints<6>& x, const StencilPoints<6>& v);
 /// ∂R/∂v [N] = minus the dissipative force.
-StencilVector<4> bending_dissipation_gradient(const BendingStencil& s, const StencilPoints<4>& x,
-                                              const StencilPoints<4>& v);
+StencilVector<6> bending_dissipation_gradient(const BendingStencil& s, const StencilPoints<6>& x,
+                                              const StencilPoints<6>& v);
 /// ∂²R/∂v² [N·s/m], positive semi-definite.
-StencilMatrix<4> bending_dissipation_hessian(const BendingStencil& s, const StencilPoints<4>& x);
+StencilMatrix<6> bending_dissipation_hessian(const BendingStencil& s, const StencilPoints<6>& x);
+
+/// Curvature (κ_uu, κ_vv, 2 κ_uv) [1/m] beyond the rest shape's.
+Vec3 bending_curvature(const BendingStencil& s, const BendingLaw& law, const StencilPoints<6>& x);
 
 /// Elastic and dissipative force at once. A hinge with a triangle under 1 µm high has no angle to speak of and answers
 /// with nothing (here and in bending_response).
-std::array<Vec3, 4> bending_force(const BendingStencil& s, const StencilPoints<4>& x, const StencilPoints<4>& v,
-                                  double fabric_factor);
+std::array<Vec3, 6> bending_force(const BendingStencil& s, const BendingLaw* law, const StencilPoints<6>& x,
+                                  const StencilPoints<6>& v, double fabric_factor);
 
-/// Force, and the system's share of the hinge as one vector: its blocks are rowᵢ rowⱼᵀ.
+/// Force, and the system's share as three rows over the nodes' coordinates: block (i, j) is rowsᵢᵀ rowsⱼ.
 struct BendingResponse {
-  std::array<Vec3, 4> force;
-  std::array<Eigen::Vector3f, 4> row;
+  std::array<Vec3, 6> force;
+  std::array<Eigen::Matrix3f, 6> rows;
 };
-/// row rowᵀ = stiffness · _hessian_psd + dissipation · _dissipation_hessian.
-void bending_response(const BendingStencil& s, const StencilPoints<4>& x, const StencilPoints<4>& v,
-                      const SystemWeights& weights, BendingResponse& out);
+/// Σ rowᵀ row = stiffness · _hessian_psd + dissipation · _dissipation_hessian.
+void bending_response(const BendingStencil& s, const BendingLaw* law, const StencilPoints<6>& x,
+                      const StencilPoints<6>& v, const SystemWeights& weights, BendingResponse& out);
 
 }  // namespace toile

@@ -3,20 +3,24 @@
 #include "engine/parallel/parallel_for.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace toile {
 
 namespace {
 
 struct Split {
-  double normal_force;
+  double normal_force;        ///< N
+  double push;                ///< N along the normal, negative where a bilateral contact pulls
   Vec3 slip;                  ///< u
   double slip_length, limit;  ///< |u| and μN/k [m]
 };
 
 Split split(const Contact& c, double stiffness, const Vec3& p) {
   Split s;
-  s.normal_force = stiffness * std::max(0.0, c.distance - (c.normal.dot(p) - c.offset));
+  s.push = stiffness * (c.distance - (c.normal.dot(p) - c.offset));
+  if (!c.bilateral) s.push = std::max(0.0, s.push);
+  s.normal_force = std::abs(s.push);
   const Vec3 off = p - c.anchor;
   s.slip = off - c.normal.dot(off) * c.normal;
   s.slip_length = s.slip.norm();
@@ -46,7 +50,7 @@ ContactResponse contact_response(const Contact& c, double stiffness, const Vec3&
   const Split s = split(c, stiffness, p);
   r.normal_force = s.normal_force;
   if (!(s.normal_force > 0)) return r;
-  r.force = s.normal_force * c.normal;
+  r.force = s.push * c.normal;
   const Mat3 across = c.normal * c.normal.transpose();
   r.hessian = stiffness * across;
   if (c.friction <= 0) return r;

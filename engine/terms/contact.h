@@ -11,6 +11,7 @@ namespace toile {
 ///   repulsion   E = ½ k max(0, d)²,  normal force N = k max(0, d)   [point repulsion, the first seed's §3.2];
 ///   friction    u = (I − n nᵀ)(p − anchor), an elastic–plastic spring: force −k u while k |u| ≤ μ N (sticks, with the
 ///               energy ½ k |u|²), else −μ N u/|u| (slides)   [Coulomb; anchored springs after Yamane & Nakamura 2006].
+/// A bilateral contact has d of either sign, E = ½ k d² and N = k |d|.
 /// N is the one at p, not that of the step's start: at a solution the cone condition holds exactly and a resting
 /// contact does not creep. The Hessian is positive semi-definite: k n nᵀ + k T while sticking, k n nᵀ + (μ N/|u|)(T − û
 /// ûᵀ) while sliding; the coupling −μ k û (−nᵀ) of friction to the normal force is not symmetric and is left out
@@ -18,7 +19,7 @@ namespace toile {
 struct ContactResponse {
   Vec3 force = Vec3::Zero();    ///< f(p) [N]
   Mat3 hessian = Mat3::Zero();  ///< H(p) [N/m]
-  double normal_force = 0;      ///< N [N]
+  double normal_force = 0;      ///< N [N], not negative
   bool sliding = false;
 };
 

@@ -31,13 +31,62 @@ Mat32 edge_map(const MembraneStencil& s, const StencilPoints<3>& x) {
   return edges * s.inverse_rest;
 }
 
-/// Second Piola–Kirchhoff stress of a strain (tensor components).
-Mat2 stress(const MembraneStencil& s, const Mat2& strain) {
+/// Second Piola–Kirchhoff stress of a strain (tensor components) at constant moduli.
+Mat2 stress(const MembraneModuli& c, const Mat2& strain) {
   Mat2 p;
-  p(0, 0) = s.c_weft * strain(0, 0) + s.c_poisson * strain(1, 1);
-  p(1, 1) = s.c_warp * strain(1, 1) + s.c_poisson * strain(0, 0);
-  p(0, 1) = p(1, 0) = 2 * s.shear * strain(0, 1);
+  p(0, 0) = c.weft * strain(0, 0) + c.poisson * strain(1, 1);
+  p(1, 1) = c.warp * strain(1, 1) + c.poisson * strain(0, 0);
+  p(0, 1) = p(1, 0) = 2 * c.shear * strain(0, 1);
   return p;
+}
+
+/// Stress at a strain, and the tangent moduli there.
+struct Elastic {
+  Mat2 stress;
+  MembraneModuli tangent;
+};
+
+Elastic measured(const MembraneStencil& s, const Mat2& strain) {
+  Elastic e{stress(s.moduli, strain), s.moduli};
+  const auto replace = [](const StressCurve& curve, double at, double linear, double& total, double& tangent) {
+    if (curve.empty()) return;
+    const StressCurve::Value value = curve.at(at);
+    total += value.stress - linear;
+    tangent = value.tangent;
+  };
+  replace(s.curves->weft, strain(0, 0), s.moduli.weft * strain(0, 0), e.stress(0, 0), e.tangent.weft);
+  replace(s.curves->warp, strain(1, 1), s.moduli.warp * strain(1, 1), e.stress(1, 1), e.tangent.warp);
+  if (!s.curves->shear.empty()) {
+    const StressCurve::Value value = s.curves->shear.at(std::abs(strain(0, 1)));
+    e.stress(0, 1) = e.stress(1, 0) = std::copysign(value.stress, strain(0, 1));
+    e.tangent.shear = 0.5 * value.tangent;
+  }
+  return e;
+}
+
+Elastic elastic(const MembraneStencil& s, const Mat2& strain) {
+  return s.curves ? measured(s, strain) : Elastic{stress(s.moduli, strain), s.moduli};
+}
+
+/// The same with the viscous stress of the rate.
+Elastic elastic_and_viscous(const MembraneStencil& s, const Mat2& strain, const Mat2& rate) {
+  if (!s.curves) return {stress(s.moduli, strain + s.damping * rate), s.moduli};
+  Elastic e = measured(s, strain);
+  e.stress += s.damping * stress(e.tangent, rate);
+  return e;
+}
+
+/// Per rest area [J/m²].
+double energy_density(const MembraneStencil& s, const Mat2& strain) {
+  double density = 0.5 * (strain.array() * stress(s.moduli, strain).array()).sum();
+  if (!s.curves) return density;
+  const auto replace = [&](const StressCurve& curve, double at, double linear, double times) {
+    if (!curve.empty()) density += times * (curve.energy(at) - 0.5 * linear * at * at);
+  };
+  replace(s.curves->weft, strain(0, 0), s.moduli.weft, 1);
+  replace(s.curves->warp, strain(1, 1), s.moduli.warp, 1);
+  replace(s.curves->shear, std::abs(strain(0, 1)), 2 * s.moduli.shear, 2);
+  return density;
 }
 
 Mat2 green_strain(const Mat32& f) { return 0.5 * (f.transpose() * f - Mat2::Identity()); }
@@ -66,11 +115,10 @@ struct Material {
   Mat3 uu, vv, uv;  ///< F_u F_uᵀ, F_v F_vᵀ, F_u F_vᵀ
   explicit Material(const Mat32& f)
       : uu(f.col(0) * f.col(0).transpose()), vv(f.col(1) * f.col(1).transpose()), uv(f.col(0) * f.col(1).transpose()) {}
-  Mat3 block(const MembraneStencil& s, const Vec2& a, const Vec2& b) const {
-    return (s.c_weft * a[0] * b[0] + s.shear * a[1] * b[1]) * uu +
-           (s.c_warp * a[1] * b[1] + s.shear * a[0] * b[0]) * vv +
-           (s.c_poisson * a[0] * b[1] + s.shear * a[1] * b[0]) * uv +
-           (s.c_poisson * a[1] * b[0] + s.shear * a[0] * b[1]) * uv.transpose();
+  Mat3 block(const MembraneModuli& c, const Vec2& a, const Vec2& b) const {
+    return (c.weft * a[0] * b[0] + c.shear * a[1] * b[1]) * uu + (c.warp * a[1] * b[1] + c.shear * a[0] * b[0]) * vv +
+           (c.poisson * a[0] * b[1] + c.shear * a[1] * b[0]) * uv +
+           (c.poisson * a[1] * b[0] + c.shear * a[0] * b[1]) * uv.transpose();
   }
 };
 
@@ -105,13 +153,14 @@ Mat3 cross_matrix(const Vec3& a) {
   return m;
 }
 
-StencilMatrix<3> hessian_of(const MembraneStencil& s, const Mat32& f, const Mat2& geometric_stress) {
+StencilMatrix<3> hessian_of(const MembraneStencil& s, const MembraneModuli& moduli, const Mat32& f,
+                            const Mat2& geometric_stress) {
   const Mat23 g = shape_gradients(s);
   const Material material(f);
   StencilMatrix<3> h;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
-      Mat3 block = material.block(s, g.col(i), g.col(j));
+      Mat3 block = material.block(moduli, g.col(i), g.col(j));
       block.diagonal().array() += g.col(i).dot(geometric_stress * g.col(j));
       h.block<3, 3>(3 * i, 3 * j) = s.rest_area * block;
     }
@@ -127,9 +176,17 @@ void add_compression_material(const MembraneStencil& s, const Compression& c, St
 }  // namespace
 
 std::vector<MembraneStencil> membrane_stencils(const Cloth& cloth) {
+  std::vector<std::shared_ptr<const MembraneCurves>> curves(cloth.fabrics.size());
+  for (std::size_t f = 0; f < curves.size(); ++f) {
+    const Fabric& fabric = cloth.fabrics[f];
+    if (fabric.weft_stress.empty() && fabric.warp_stress.empty() && fabric.shear_stress.empty()) continue;
+    curves[f] = std::make_shared<const MembraneCurves>(
+        MembraneCurves{fabric.weft_stress, fabric.warp_stress, fabric.shear_stress});
+  }
   std::vector<MembraneStencil> stencils(cloth.triangles.size());
   for (std::size_t t = 0; t < stencils.size(); ++t) {
-    const Fabric& fabric = cloth.fabrics.at(cloth.panels.at(cloth.triangle_panel[t]).fabric);
+    const int fabric_index = cloth.panels.at(cloth.triangle_panel[t]).fabric;
+    const Fabric& fabric = cloth.fabrics.at(fabric_index);
     const auto& flat = cloth.flat[t];
     Mat2 rest;
     rest.col(0) = flat[1] - flat[0];
@@ -141,22 +198,20 @@ std::vector<MembraneStencil> membrane_stencils(const Cloth& cloth) {
     s.nodes = cloth.triangles[t];
     s.rest_area = 0.5 * doubled;
     s.inverse_rest = rest.inverse();
-    s.c_weft = fabric.stretch_stiffness.weft;
-    s.c_warp = fabric.stretch_stiffness.warp;
-    s.shear = fabric.stretch_stiffness.bias;
-    s.c_poisson = fabric.poisson_stiffness;
-    s.compression = 0.5 * (s.c_weft + s.c_warp);
+    const Directional& modulus = fabric.stretch_stiffness;
+    s.moduli = {modulus.weft, modulus.warp, fabric.poisson_stiffness, modulus.bias};
+    s.compression = 0.5 * (s.moduli.weft + s.moduli.warp);
     s.damping = fabric.membrane_damping;
+    s.curves = curves[fabric_index];
   }
   return stencils;
 }
 
 double membrane_energy(const MembraneStencil& s, const StencilPoints<3>& x) {
   const Mat2 e = green_strain(edge_map(s, x));
-  const double elastic = 0.5 * (e.array() * stress(s, e).array()).sum();
   const double shortfall =
       std::max(0.0, kCompressionOnset - (x[1] - x[0]).cross(x[2] - x[0]).norm() / (2 * s.rest_area));
-  return s.rest_area * (elastic + s.compression / 3 * shortfall * shortfall * shortfall);
+  return s.rest_area * (energy_density(s, e) + s.compression / 3 * shortfall * shortfall * shortfall);
 }
 
 StencilVector<3> membrane_gradient(const MembraneStencil& s, const StencilPoints<3>& x) {
@@ -168,7 +223,8 @@ StencilVector<3> membrane_gradient(const MembraneStencil& s, const StencilPoints
 
 StencilMatrix<3> membrane_hessian(const MembraneStencil& s, const StencilPoints<3>& x) {
   const Mat32 f = edge_map(s, x);
-  StencilMatrix<3> h = hessian_of(s, f, stress(s, green_strain(f)));
+  const Elastic e = elastic(s, green_strain(f));
+  StencilMatrix<3> h = hessian_of(s, e.tangent, f, e.stress);
   const Compression c = compression_of(s, x);
   if (!c.active) return h;
   add_compression_material(s, c, h);
@@ -189,33 +245,38 @@ StencilMatrix<3> membrane_hessian(const MembraneStencil& s, const StencilPoints<
 
 StencilMatrix<3> membrane_hessian_psd(const MembraneStencil& s, const StencilPoints<3>& x) {
   const Mat32 f = edge_map(s, x);
-  StencilMatrix<3> h = hessian_of(s, f, tensile_part(stress(s, green_strain(f))));
+  const Elastic e = elastic(s, green_strain(f));
+  StencilMatrix<3> h = hessian_of(s, e.tangent, f, tensile_part(e.stress));
   const Compression c = compression_of(s, x);
   if (c.active) add_compression_material(s, c, h);
   return h;
 }
 
 double membrane_dissipation(const MembraneStencil& s, const StencilPoints<3>& x, const StencilPoints<3>& v) {
-  const Mat2 rate = strain_rate(edge_map(s, x), edge_map(s, v));
-  return 0.5 * s.damping * s.rest_area * (rate.array() * stress(s, rate).array()).sum();
+  const Mat32 f = edge_map(s, x);
+  const Mat2 rate = strain_rate(f, edge_map(s, v));
+  const MembraneModuli tangent = elastic(s, green_strain(f)).tangent;
+  return 0.5 * s.damping * s.rest_area * (rate.array() * stress(tangent, rate).array()).sum();
 }
 
 StencilVector<3> membrane_dissipation_gradient(const MembraneStencil& s, const StencilPoints<3>& x,
                                                const StencilPoints<3>& v) {
   const Mat32 f = edge_map(s, x);
-  const Mat2 viscous = s.damping * stress(s, strain_rate(f, edge_map(s, v)));
+  const MembraneModuli tangent = elastic(s, green_strain(f)).tangent;
+  const Mat2 viscous = s.damping * stress(tangent, strain_rate(f, edge_map(s, v)));
   const Eigen::Matrix3d nodal = s.rest_area * f * viscous * shape_gradients(s);
   return Eigen::Map<const StencilVector<3>>(nodal.data());
 }
 
 StencilMatrix<3> membrane_dissipation_hessian(const MembraneStencil& s, const StencilPoints<3>& x) {
-  return s.damping * hessian_of(s, edge_map(s, x), Mat2::Zero());
+  const Mat32 f = edge_map(s, x);
+  return s.damping * hessian_of(s, elastic(s, green_strain(f)).tangent, f, Mat2::Zero());
 }
 
 std::array<Vec3, 3> membrane_force(const MembraneStencil& s, const StencilPoints<3>& x, const StencilPoints<3>& v,
                                    double fabric_factor) {
   const Mat32 f = edge_map(s, x);
-  const Mat2 total = stress(s, green_strain(f) + s.damping * strain_rate(f, edge_map(s, v)));
+  const Mat2 total = elastic_and_viscous(s, green_strain(f), strain_rate(f, edge_map(s, v))).stress;
   const Mat32 flow = (-fabric_factor * s.rest_area) * f * total * s.inverse_rest.transpose();
   std::array<Vec3, 3> force = {-flow.col(0) - flow.col(1), flow.col(0), flow.col(1)};
   const Compression c = compression_of(s, x);
@@ -229,12 +290,12 @@ std::array<Vec3, 3> membrane_force(const MembraneStencil& s, const StencilPoints
 void membrane_response(const MembraneStencil& s, const StencilPoints<3>& x, const StencilPoints<3>& v,
                        const SystemWeights& weights, StencilResponse<3>& out) {
   const Mat32 f = edge_map(s, x);
-  const Mat2 total = stress(s, green_strain(f) + s.damping * strain_rate(f, edge_map(s, v)));
+  const Elastic e = elastic_and_viscous(s, green_strain(f), strain_rate(f, edge_map(s, v)));
   const double area = weights.fabric * s.rest_area;
-  const Mat32 flow = -area * f * total * s.inverse_rest.transpose();
+  const Mat32 flow = -area * f * e.stress * s.inverse_rest.transpose();
   out.force = {-flow.col(0) - flow.col(1), flow.col(0), flow.col(1)};
 
-  const Mat2 geometric = tensile_part(total);
+  const Mat2 geometric = tensile_part(e.stress);
   const double material_scale = area * (weights.stiffness + weights.dissipation * s.damping);
   const double geometric_scale = area * weights.stiffness;
   const Mat23 g = shape_gradients(s);
@@ -246,7 +307,7 @@ void membrane_response(const MembraneStencil& s, const StencilPoints<3>& x, cons
     for (int i = 0; i < 3; ++i) out.force[i] += push * c.gradient[i];
   }
   const auto block = [&](int i, int j) {
-    Mat3 b = material_scale * material.block(s, g.col(i), g.col(j));
+    Mat3 b = material_scale * material.block(e.tangent, g.col(i), g.col(j));
     b.diagonal().array() += geometric_scale * g.col(i).dot(geometric * g.col(j));
     if (c.active) b += compression_scale * c.gradient[i] * c.gradient[j].transpose();
     return b;

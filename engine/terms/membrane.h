@@ -4,27 +4,39 @@
 #include "engine/mesh/cloth.h"
 #include "engine/terms/stencil.h"
 
+#include <memory>
+
 namespace toile {
 
 /// Elastic energy of a triangle [J], with F = Ds Dm⁻¹ (3×2, columns: the images of weft and warp), E = ½ (FᵀF − I):
 ///   A (½ C_weft E_uu² + ½ C_warp E_vv² + C_poisson E_uu E_vv + 2 G E_uv²)  +  A K/3 max(0, J₀ − J)³.
+/// where a direction's quadratic term is its integral of a measured stress where the fabric has one: ∫ S_weft dE_uu,
+/// ∫ S_warp dE_vv, 2 ∫ S_shear d|E_uv| (scene/fabric.h); C and G below then are the tangents at the strain.
 /// The first part is StVK [Volino, Magnenat-Thalmann & Faure 2009; the first seed's §3.2]. StVK loses its strength in
 /// compression (its force falls below a principal stretch of 0.577 and is nil at 0), so a triangle could collapse for
-/// nothing. The second part prevents that: J = current area / rest area, J₀ = 0.7, K = ½ (C_warp + C_weft); it makes
-/// the uniaxial force monotone down to a stretch of 0, is twice continuously differentiable, finite everywhere, and
-/// exactly zero in every state that a cloth takes which is free to buckle.
-/// Dissipation potential [W] [Sánchez-Banderas & Otaduy 2018; the first seed's §5.3]:
-///   R = ½ β A Ėᵀ C Ė,  Ė = ½ (FᵀḞ + ḞᵀF);  force −∂R/∂v.
+/// nothing. The second part prevents that: J = current area / rest area, J₀ = 0.7, K = ½ (C_warp + C_weft) at rest; it
+/// makes the uniaxial force monotone down to a stretch of 0, is twice continuously differentiable, finite everywhere,
+/// and exactly zero in every state that a cloth takes which is free to buckle. Dissipation potential [W]
+/// [Sánchez-Banderas & Otaduy 2018; the first seed's §5.3]:
+///   R = ½ β A Ėᵀ C Ė,  Ė = ½ (FᵀḞ + ḞᵀF);  force −∂R/∂v,
+/// with the tangents C at the current strain, so that β stays viscous over elastic stress where a curve stiffens.
 /// Its stress adds to the elastic one. Velocity derivative: exact. Position derivative of the dissipative force: the
 /// part through ∂E/∂x (geometric, symmetric) is kept in the response, the part through Ė(x) (not symmetric) is dropped.
+struct MembraneModuli {
+  double weft, warp;      ///< C [N/m]
+  double poisson, shear;  ///< C_poisson, G [N/m]
+};
+struct MembraneCurves {
+  StressCurve weft, warp, shear;  ///< an empty one: linear with its modulus
+};
 struct MembraneStencil {
   std::array<int, 3> nodes;
-  double rest_area;         ///< [m²], positive whatever the flat winding
-  Mat2 inverse_rest;        ///< Dm⁻¹ [1/m], Dm's columns: flat edges 0→1, 0→2 in (weft, warp)
-  double c_weft, c_warp;    ///< [N/m]
-  double c_poisson, shear;  ///< [N/m]
-  double compression;       ///< K [N/m]
-  double damping;           ///< β [s]
+  double rest_area;       ///< [m²], positive whatever the flat winding
+  Mat2 inverse_rest;      ///< Dm⁻¹ [1/m], Dm's columns: flat edges 0→1, 0→2 in (weft, warp)
+  MembraneModuli moduli;  ///< at rest
+  double compression;     ///< K [N/m]
+  double damping;         ///< β [s]
+  std::shared_ptr<const MembraneCurves> curves;  ///< of the fabric; null: linear in all directions
 };
 
 inline constexpr double kCompressionOnset = 0.7;  ///< J₀: area ratio under which compression is resisted on top of StVK

@@ -12,6 +12,15 @@ struct DrapeArguments {
 };
 int run_drape(const DrapeArguments& arguments);
 
+struct CheckArguments {
+  std::string scene, mesh;
+  std::string out;        ///< file of the report; empty: none
+  double unit_mm = 1000;  ///< of the mesh's coordinates
+  std::string up = "y";   ///< the mesh's upward axis, y or z
+  double touch_mm = 0;    ///< contact reaches so far; 0: as the scene says
+};
+int run_check(const CheckArguments& arguments);
+
 struct RenderArguments {
   std::string job, view = "front", overlay = "fabric", out;
   int width = 0, height = 0;  ///< pixels; 0: as the scene had it

@@ -9,4 +9,7 @@ namespace toile {
 
 std::string cost_table(const Report& report);
 
+/// Without what it cost.
+std::string worth_table(const Report& report);
+
 }  // namespace toile

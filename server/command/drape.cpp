@@ -28,21 +28,12 @@ namespace {
 namespace fs = std::filesystem;
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr std::size_t kSceneFileLimit = 64U << 20;  // bytes
-constexpr double kFractionDraped = 0.98;            // of a run, when its pictures begin
+constexpr double kFractionDraped = 0.98;  // of a run, when its pictures begin
 
 int status(RunExit exit) { return static_cast<int>(exit); }
 
 double seconds_since(SteadyClock::time_point start) {
   return std::chrono::duration<double>(SteadyClock::now() - start).count();
-}
-
-Job read_job(const DrapeArguments& arguments) {
-  const nlohmann::json document = parse_json(read_input_file(arguments.scene, kSceneFileLimit));
-  validate_scene_document(document);
-  Job job = read_scene(document, file_resolver(fs::path(arguments.scene).parent_path()));
-  if (arguments.threads > 0) job.scene.solver.threads = arguments.threads;
-  return job;
 }
 
 void draw_pictures(const Drape& drape, const RenderRequest& request, const fs::path& out) {
@@ -68,7 +59,8 @@ int drape_to_files(const DrapeArguments& arguments, RunMonitor& monitor) {
   fs::create_directories(out);
   remove_old_results(out);
 
-  const Job job = read_job(arguments);
+  Job job = read_job(arguments.scene);
+  if (arguments.threads > 0) job.scene.solver.threads = arguments.threads;
   Drape result = drape(job.scene, monitor);
   Report& report = result.report;
   report.warnings.insert(report.warnings.begin(), job.warnings.begin(), job.warnings.end());

@@ -9,11 +9,17 @@
 #include <cerrno>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <system_error>
 #include <vector>
 
 namespace toile {
 namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kSceneFileLimit = 64U << 20;  // bytes
+
+}  // namespace
 
 std::string read_input_file(const fs::path& path, std::size_t limit) {
   std::ifstream file(path, std::ios::binary);
@@ -25,6 +31,12 @@ std::string read_input_file(const fs::path& path, std::size_t limit) {
     throw InputError("", "file_too_large", path.string() + " has more than " + std::to_string(limit) + " bytes.");
   }
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Job read_job(const fs::path& scene) {
+  const nlohmann::json document = parse_json(read_input_file(scene, kSceneFileLimit));
+  validate_scene_document(document);
+  return read_scene(document, file_resolver(scene.parent_path()));
 }
 
 void write_atomically(const fs::path& path, std::string_view bytes) {

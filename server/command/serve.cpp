@@ -6,9 +6,11 @@
 #include <signal.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <thread>
@@ -39,11 +41,11 @@ class StopSignals {
   sigset_t set_{};
 };
 
-/// A server on its own thread.
+/// A server on its own thread. One that can't go on sends the process the signal that ends it in order.
 class RunningServer {
  public:
   RunningServer(Router router, HttpServerOptions options, const std::string& host, int port)
-      : server_(std::move(router), options), port_(server_.bind(host, port)), thread_([this] { server_.serve(); }) {}
+      : server_(std::move(router), options), port_(server_.bind(host, port)), thread_([this] { serve(); }) {}
   RunningServer(const RunningServer&) = delete;
   RunningServer& operator=(const RunningServer&) = delete;
   ~RunningServer() { stop(); }
@@ -52,10 +54,24 @@ class RunningServer {
     server_.stop();
     if (thread_.joinable()) thread_.join();
   }
+  /// After stop(): throws what ended the serving, if it was not stop().
+  void rethrow_failure() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
 
  private:
+  void serve() {
+    try {
+      server_.serve();
+    } catch (...) {
+      failure_ = std::current_exception();
+      kill(getpid(), SIGTERM);
+    }
+  }
+
   HttpServer server_;
   int port_;
+  std::exception_ptr failure_;
   std::thread thread_;
 };
 
@@ -107,7 +123,10 @@ int run_serve(const ServeArguments& arguments) {
 
   spdlog::info("signal {}: stopping", signals.wait());
   server.stop();
+  if (health) health->stop();
   dispatcher.stop();
+  server.rethrow_failure();
+  if (health) health->rethrow_failure();
   return 0;
 }
 

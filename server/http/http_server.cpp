@@ -266,7 +266,11 @@ int HttpServer::bind(const std::string& host, int port) {
   return bound;
 }
 
-void HttpServer::serve() { library_->server.listen_after_bind(); }
+void HttpServer::serve() {
+  if (library_->server.listen_after_bind()) return;
+  const std::scoped_lock lock(library_->stopping);
+  if (!library_->stop_asked) throw std::runtime_error("the HTTP server can't accept connections any more");
+}
 void HttpServer::stop() { library_->stop(); }
 
 }  // namespace toile

@@ -31,7 +31,8 @@ class HttpServer {
 
   /// Listens on a port, 0 for any free one; returns the port. Throws std::runtime_error when it is taken.
   int bind(const std::string& host, int port);
-  /// Serves until stop(): running requests end, new ones are refused. Once stopped, never again.
+  /// Serves until stop(): running requests end, new ones are refused. Once stopped, never again. Throws
+  /// std::runtime_error when connections can't be accepted any more, after running requests have ended.
   void serve();
   /// From any thread, any number of times, before serve() too, which then returns at once.
   void stop();

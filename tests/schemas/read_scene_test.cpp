@@ -90,6 +90,67 @@ TEST(ReadScene, FabricsByNameInlineAndByPanel) {
   EXPECT_EQ(std::get<Pattern>(garment.shape).panels[0].fabric->name, fabric.name);
 }
 
+TEST(ReadScene, ReadingsOfAStretchTestBecomeStressCurves) {
+  const Fabric fabric = garment_from(R"({"disc": {"radius_mm": 150}, "fabric": {
+      "base": "poplin", "poisson_ratio": 0, "stretch_curve": {
+        "warp": [{"strain_percent": 10, "force_N_m": 22}, {"strain_percent": 20, "force_N_m": 60}]}}})")
+                            .fabric;
+  ASSERT_EQ(fabric.warp_stress.knots.size(), 3u);
+  EXPECT_NEAR(fabric.warp_stress.at(0.105).stress, 20, 1e-12) << "Green strain and second Piola-Kirchhoff stress";
+  EXPECT_DOUBLE_EQ(fabric.stretch_stiffness.warp, fabric.warp_stress.initial_tangent());
+  EXPECT_TRUE(fabric.weft_stress.empty());
+  EXPECT_DOUBLE_EQ(fabric.stretch_stiffness.weft, read_fabric("poplin").stretch_stiffness.weft);
+  EXPECT_TRUE(read_fabric("poplin").warp_stress.empty());
+}
+
+/// An OBJ of one square whose sides are `size` and whose texture is `uv_size` wide.
+std::string square_obj(double size, double uv_size) {
+  std::string text;
+  for (const auto& [x, y] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)})
+    text += "v " + std::to_string(x * size) + " " + std::to_string(y * size) + " 0\\nvt " +
+            std::to_string(x * uv_size) + " " + std::to_string(y * uv_size) + "\\n";
+  return text + "f 1/1 2/2 3/3\\nf 1/1 3/3 4/4\\n";
+}
+
+TEST(ReadScene, TheSameGarmentInOtherUnitsIsTheSameScene) {
+  const auto mesh = [](const std::string& obj, const std::string& units) {
+    return std::get<GarmentMesh>(garment_from(R"({"mesh": {"inline": ")" + obj + "\"" + units + "}}").shape);
+  };
+  const GarmentMesh metres = mesh(square_obj(0.5, 0.5), "");
+  const GarmentMesh others = mesh(square_obj(500, 50), R"(, "unit_mm": 1, "uv_unit_mm": 10)");
+  ASSERT_EQ(metres.mesh.vertices.size(), others.mesh.vertices.size());
+  for (std::size_t v = 0; v < metres.mesh.vertices.size(); ++v)
+    EXPECT_LT((metres.mesh.vertices[v] - others.mesh.vertices[v]).norm(), 1e-15);
+  for (std::size_t t = 0; t < metres.mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_LT((metres.mesh.corner_uv[t][k] * metres.uv_unit - others.mesh.corner_uv[t][k] * others.uv_unit).norm(),
+                1e-15);
+
+  const auto panel = [](double size, const std::string& units) {
+    const std::string s = std::to_string(size);
+    return std::get<Pattern>(
+               garment_from(R"({"pattern": {"inline": {"pattern": {"panels": {"p": {"vertices": [[0, 0], [)" + s +
+                            ", 0], [" + s + ", " + s + "], [0, " + s + R"(]], "edges": [{"endpoints": [0, 1]},
+                            {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}],
+                            "rotation": [0, 0, 0], "translation": [)" +
+                            s + ", 0, 0]}}, \"stitches\": []}, " + R"("properties": {"units_in_meter": )" + units +
+                            R"(, "curvature_coords": "relative"}}}})")
+                   .shape)
+        .panels.at(0);
+  };
+  const Panel centimetres = panel(50, "100"), inches = panel(50 / 2.54, "39.37007874015748");
+  for (std::size_t v = 0; v < 4; ++v) EXPECT_LT((centimetres.vertices[v] - inches.vertices[v]).norm(), 1e-6);
+  EXPECT_LT((centimetres.translation - inches.translation).norm(), 1e-6);
+}
+
+TEST(ReadScene, GrainInDegreesForGarmentAndPanels) {
+  const Garment garment =
+      garment_from(R"({"disc": {"radius_mm": 150}, "grain_deg": 45, "panel_grain_deg": {"disc": -90}})");
+  EXPECT_DOUBLE_EQ(garment.grain, M_PI / 4);
+  EXPECT_DOUBLE_EQ(garment.panel_grain.at("disc"), -M_PI / 2);
+  EXPECT_EQ(garment_from(R"({"disc": {"radius_mm": 150}})").grain, 0);
+}
+
 TEST(ReadScene, Pins) {
   const Garment garment = garment_from(R"({"rectangle": {"width_mm": 400, "height_mm": 300}, "pins": [
       {"vertices": [0, 5]},
@@ -109,6 +170,51 @@ TEST(ReadScene, Pins) {
   EXPECT_DOUBLE_EQ(moved.key_frames[1].time, 1.5);
   EXPECT_DOUBLE_EQ(moved.key_frames[1].translation.y(), 0.02);
   EXPECT_DOUBLE_EQ(moved.key_frames[1].rotation_vector.y(), 4 * M_PI) << "about one axis, whole turns are kept";
+}
+
+TEST(ReadScene, ElasticsAndDrawcords) {
+  const Garment garment = garment_from(
+      R"({"rectangle": {"width_mm": 400, "height_mm": 300},
+          "elastics": [{"edge": {"panel": "rectangle", "edge": 2}, "length_percent": 80, "stiffness_N": 12}],
+          "drawcords": [{"vertices": [0, 1, 2], "length_mm": 350, "damping_s": 0.5}]})");
+  ASSERT_EQ(garment.elastics.size(), 1u);
+  EXPECT_EQ(std::get<PinEdge>(garment.elastics[0].select).edge, 2);
+  EXPECT_DOUBLE_EQ(garment.elastics[0].length_factor, 0.8);
+  EXPECT_DOUBLE_EQ(garment.elastics[0].stiffness, 12);
+  EXPECT_DOUBLE_EQ(garment.elastics[0].damping, Elastic{}.damping);
+  ASSERT_EQ(garment.drawcords.size(), 1u);
+  EXPECT_THAT(std::get<PinVertices>(garment.drawcords[0].select).vertices, ElementsAre(0, 1, 2));
+  EXPECT_DOUBLE_EQ(garment.drawcords[0].length, 0.35);
+  EXPECT_DOUBLE_EQ(garment.drawcords[0].stiffness, Drawcord{}.stiffness);
+  EXPECT_DOUBLE_EQ(garment.drawcords[0].damping, 0.5);
+}
+
+TEST(ReadScene, Buttons) {
+  const Garment garment = garment_from(
+      R"({"rectangle": {"width_mm": 400, "height_mm": 300},
+          "trims": [{"button": {"diameter_mm": 20, "mass_g": 2}, "attach": [{"panel": "rectangle", "at_mm": [10, -20]}],
+                     "stiffness_N_m": 300}]})");
+  ASSERT_EQ(garment.trims.size(), 1u);
+  const Trim& trim = garment.trims[0];
+  EXPECT_DOUBLE_EQ(trim.button.diameter, 0.02);
+  EXPECT_DOUBLE_EQ(trim.button.thickness, Button{}.thickness);
+  EXPECT_DOUBLE_EQ(trim.button.mass, 2e-3);
+  ASSERT_EQ(trim.holes.size(), 1u);
+  EXPECT_EQ(trim.holes[0].panel, "rectangle");
+  EXPECT_LT((trim.holes[0].at - Vec2(0.01, -0.02)).norm(), 1e-15);
+  EXPECT_DOUBLE_EQ(trim.stiffness, 300);
+  EXPECT_DOUBLE_EQ(trim.damping, Trim{}.damping);
+}
+
+TEST(ReadScene, ASlidingPinHasItsFrictionOrTheBodys) {
+  const auto hold = [](const std::string& friction) {
+    const Job job = read(R"({"garments": [{"disc": {"radius_mm": 150}, "pins": [{"vertices": [0], "hold": "sliding")" +
+                         friction + R"(}]}], "body": {"sphere": {"radius_mm": 100}}})");
+    return std::get<PinAttached>(job.scene.garments[0].pins[0].hold);
+  };
+  EXPECT_TRUE(hold("").slides);
+  EXPECT_FALSE(hold("").friction.has_value());
+  EXPECT_DOUBLE_EQ(hold(R"(, "friction": 0.7)").friction.value(), 0.7);
 }
 
 TEST(ReadScene, Bodies) {
@@ -132,9 +238,17 @@ TEST(ReadScene, Bodies) {
   EXPECT_DOUBLE_EQ(form.bust, DressFormBody{}.bust);
 }
 
-TEST(ReadScene, FrictionOfTheBodyOrOfTheInnermostFabric) {
-  EXPECT_DOUBLE_EQ(body_from(R"({"plane": {}, "friction": 0.45})").friction, 0.45);
-  EXPECT_DOUBLE_EQ(body_from(R"({"plane": {}})").friction, read_fabric("poplin").friction_body);
+TEST(ReadScene, FrictionOfTheBodyOrOfEachFabricAndOfPairs) {
+  EXPECT_EQ(body_from(R"({"plane": {}, "friction": 0.45})").friction, 0.45);
+  EXPECT_EQ(body_from(R"({"plane": {}})").friction, std::nullopt);
+  const Scene scene = read(R"({"garments": [{"disc": {"radius_mm": 150}}], "body": {"plane": {}},
+      "friction_pairs": [{"between": ["poplin", "body"], "coefficient": 0.1},
+                         {"between": ["poplin", "poplin"], "coefficient": 0.7}]})")
+                          .scene;
+  ASSERT_EQ(scene.friction_pairs.size(), 2u);
+  EXPECT_EQ(scene.friction_pairs[0].other, "");
+  EXPECT_EQ(scene.friction_pairs[0].coefficient, 0.1);
+  EXPECT_EQ(scene.friction_pairs[1].other, "poplin");
 }
 
 TEST(ReadScene, MeshesHaveTheirUnitAndAxis) {
@@ -232,6 +346,32 @@ INSTANTIATE_TEST_SUITE_P(Specs, Attachments,
                                            Attachment{"pencil_dress", {}}, Attachment{"repo_hoody_mean", {}},
                                            Attachment{"repo_shirt_mean", {}}),
                          [](const auto& spec) { return std::string(spec.param.spec); });
+
+TEST(Folds, AreReadWithSeamsAndClamps) {
+  const json document = testing::json_from(TOILE_SOURCE "/schemas/examples/valid/folded_and_clamped.json");
+  const Garment garment = read_scene(document, no_reference).scene.garments[0];
+  EXPECT_EQ(garment.seam_bending.stiffness_factor, 4);
+  ASSERT_EQ(garment.folds.size(), 1u);
+  EXPECT_EQ(std::get<PinEdge>(garment.folds[0].select).panel, 1);
+  EXPECT_EQ(std::get<PinEdge>(garment.folds[0].select).edge, 2);
+  EXPECT_NEAR(garment.folds[0].angle, -2 * M_PI / 3, 1e-12);
+  EXPECT_EQ(garment.folds[0].stiffness_factor, 2);
+  ASSERT_EQ(garment.pins.size(), 1u);
+  EXPECT_TRUE(garment.pins[0].clamp);
+  const Directional &softening = garment.fabric.bending_softening, &loop = garment.fabric.bending_hysteresis;
+  EXPECT_DOUBLE_EQ(softening.warp, 2.7e-3);
+  EXPECT_DOUBLE_EQ(softening.weft, 2.4e-3);
+  EXPECT_DOUBLE_EQ(softening.bias, 2.4e-3);
+  EXPECT_DOUBLE_EQ(loop.warp, 400e-6);
+  EXPECT_DOUBLE_EQ(loop.weft, 300e-6);
+  EXPECT_DOUBLE_EQ(loop.bias, 350e-6);
+  EXPECT_EQ(garment.fabric.bending_hysteresis_onset, 15);
+  const Garment plain = garment_from(R"({"disc": {"radius_mm": 150}, "pins": [{"vertices": [0]}]})");
+  EXPECT_FALSE(plain.pins[0].clamp);
+  EXPECT_TRUE(plain.folds.empty());
+  EXPECT_EQ(plain.seam_bending.stiffness_factor, 1);
+  EXPECT_EQ(plain.fabric.bending_softening, Directional{});
+}
 
 TEST(Attach, CanBeTurnedOffNamedAndOverridden) {
   const std::string pattern = R"("pattern": {"pattern": {"panels": {"p": {"vertices": [[0,0],[9,0],[0,9]],

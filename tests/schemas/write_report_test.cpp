@@ -22,6 +22,11 @@ Report full_report() {
   report.time = {1, 2, 3, 6.5, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
   report.simulated_time = 1.25;
   report.stretch_warp = {0.001, 0.02, 0.05};
+  report.stretch_bias = {0.01, 0.03, 0.06, -0.04, -0.02, 0.005};
+  report.compressed_share = 0.002;
+  report.energies = {{"membrane", 0.001}, {"bending", 0.002}, {"gravity", -0.3}};
+  report.contacts = {40, 0, 30, 0};
+  report.discretisation_error = 0.0015;
   report.residual_rms = 0.01;
   report.penetration_max = 0.0012;
   report.seam_gap_max = 0.0003;
@@ -42,6 +47,15 @@ TEST(WriteReport, MatchesItsSchema) {
 TEST(WriteReport, HasTheUnitsOfItsKeys) {
   const json document = write_report(full_report());
   EXPECT_DOUBLE_EQ(document["stretch_percent"]["warp"]["p99"], 2.0);
+  EXPECT_DOUBLE_EQ(document["stretch_percent"]["bias"]["min"], -4.0);
+  EXPECT_DOUBLE_EQ(document["stretch_percent"]["bias"]["p01"], -2.0);
+  EXPECT_DOUBLE_EQ(document["stretch_percent"]["bias"]["median"], 0.5);
+  EXPECT_DOUBLE_EQ(document["compressed_percent"], 0.2);
+  EXPECT_DOUBLE_EQ(document["energy_j"]["gravity"], -0.3);
+  EXPECT_EQ(document["contacts"]["body"]["count"], 40);
+  EXPECT_DOUBLE_EQ(document["contacts"]["body"]["sticking_share"], 0.75);
+  EXPECT_DOUBLE_EQ(document["contacts"]["cloth"]["sticking_share"], 0);
+  EXPECT_DOUBLE_EQ(document["discretisation_error_mm"], 1.5);
   EXPECT_DOUBLE_EQ(document["penetration_mm"]["max"], 1.2);
   EXPECT_DOUBLE_EQ(document["seam_gap_mm"]["max"], 0.3);
   EXPECT_DOUBLE_EQ(document["time_s"]["total"], 6.5);

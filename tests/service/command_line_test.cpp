@@ -87,6 +87,31 @@ TEST_F(CommandLine, BadInputIsTwoWithTheProblem) {
   EXPECT_EQ(status, 2);
 }
 
+TEST_F(CommandLine, ChecksWhatItDrapedAndWhatItDidNot) {
+  int status = -1;
+  toile("drape " + scene("standard") + " --out out", &status);
+  ASSERT_EQ(status, 0);
+  const json said = report();
+  const std::string table = toile("check scene.json --mesh out/mesh.obj --out check.json", &status);
+  EXPECT_EQ(status, 0) << table;
+  EXPECT_THAT(table, testing::HasSubstr("force residual"));
+  const json judged = json::parse(std::ifstream(folder_ / "check.json"), nullptr, false);
+  EXPECT_EQ(judged["stop_reason"], "checked");
+  EXPECT_NEAR(judged["stretch_percent"]["bias"]["p99"], said["stretch_percent"]["bias"]["p99"].get<double>(), 1e-4);
+  EXPECT_NEAR(judged["energy_j"]["bending"], said["energy_j"]["bending"].get<double>(), 1e-8);
+  EXPECT_LT(judged["force_residual"]["rms"], 2 * said["force_residual"]["rms"].get<double>());
+
+  EXPECT_THAT(toile("check scene.json --mesh out/mesh.obj --unit-mm 900", &status), testing::HasSubstr("not at rest"));
+  EXPECT_EQ(status, 3) << "a tenth smaller, it is squeezed";
+
+  std::ofstream(folder_ / "other.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const json problem = json::parse(toile("check scene.json --mesh other.obj", &status), nullptr, false);
+  EXPECT_EQ(status, 2);
+  EXPECT_EQ(problem["errors"][0]["code"], "mesh_mismatch");
+  EXPECT_THAT(toile("check scene.json --mesh absent.obj", &status), testing::HasSubstr("file_not_found"));
+  EXPECT_EQ(status, 2);
+}
+
 TEST_F(CommandLine, AStopSignalIsFour) {
   int status = -1;
   scene("reference", R"(,"solver":{"early_stop":false,"simulated_time_limit_s":60})");

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -133,6 +135,27 @@ void ServiceProcess::kill_now() {
 
 int ServiceProcess::stop() {
   kill(pid_, SIGTERM);
+  return wait();
+}
+
+bool ServiceProcess::break_listener() const {
+  const int process = static_cast<int>(syscall(SYS_pidfd_open, pid_, 0));
+  if (process < 0) return false;
+  bool broken = false;
+  for (int descriptor = 0; descriptor < 64; ++descriptor) {
+    const int own = static_cast<int>(syscall(SYS_pidfd_getfd, process, descriptor, 0));
+    if (own < 0) continue;
+    int listens = 0;
+    socklen_t size = sizeof listens;
+    if (getsockopt(own, SOL_SOCKET, SO_ACCEPTCONN, &listens, &size) == 0 && listens != 0)
+      broken = shutdown(own, SHUT_RDWR) == 0 || broken;
+    close(own);
+  }
+  close(process);
+  return broken;
+}
+
+int ServiceProcess::wait() {
   int status = 0;
   waitpid(pid_, &status, 0);
   pid_ = -1;

@@ -34,6 +34,9 @@ class ServiceProcess {
 
   void kill_now();  ///< kill -9
   int stop();       ///< SIGTERM; the exit status
+  /// Shuts its listening socket down, as if the system had taken it; false where this process may not.
+  bool break_listener() const;
+  int wait();  ///< for its end; the exit status
   long resident_kib() const;
   pid_t pid() const { return pid_; }
   /// The runs that this server has started.

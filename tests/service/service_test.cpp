@@ -171,6 +171,12 @@ TEST_F(ServiceOverCurl, AStopAtAnyMomentOfTheStartIsTaken) {
   }
 }
 
+TEST_F(ServiceOverCurl, AServerWithoutAListenerEndsAndSaysSo) {
+  ServiceProcess server(data());
+  if (!server.break_listener()) GTEST_SKIP() << "this process may not touch another's sockets (pidfd_getfd)";
+  EXPECT_EQ(server.wait(), 1);
+}
+
 TEST_F(ServiceOverCurl, ASecondServerOnTheSameDataIsRefused) {
   const ServiceProcess server(data());
   int status = 0;

@@ -1,87 +1,134 @@
-// A heavy strip clamped at one end against the elastica and against the discrete chain.
+// Heavy strips clamped along their short edge, on the panel mesher's meshes, against the elastica.
 
-#include "engine/solve/backward_euler.h"
-#include "tests/engine/solve/sheets.h"
 #include "tests/validation/references.h"
+#include "tests/validation/strip.h"
 
 using namespace toile;
 using namespace toile::test;
 
 namespace {
 
-struct Tip {
-  double x, drop;  ///< over the overhang
+constexpr double kDensity = 0.2;  ///< [kg/m²]
+
+/// The strip's tip over its length at Γ = ρ g L³/D, meshed with edges of L/cells.
+Vec3 tip_at(double gamma, int cells, double degrees = 0) {
+  StripScene scene;
+  scene.edge = scene.length / cells;
+  scene.degrees = degrees;
+  const double d = bending_at(gamma, kDensity, scene.length);
+  HeldCloth strip = make_strip(scene, strip_fabric(kDensity, {d, d, d}));
+  EXPECT_LT(settle(strip).residual, 1e-3) << gamma;
+  return tip_of(strip) / scene.length;
+}
+
+struct Elastica {
+  double x, drop;
 };
 
-/// Drapes a strip of `cells` rows beyond its clamp at Γ = ρ g L³/D. The first two rows of vertices are held. With the
-/// half clamp the row of triangles between them is a panel three times as stiff, so that the hinge in the clamp, which
-/// stands for half a cell, has twice the stiffness of the others.
-Tip cantilever(double gamma, int cells, bool half_clamp) {
-  const double length = 0.05, height = length / cells, edge = height * 2 / std::sqrt(3.0), density = 0.2;
-  const double bending = density * kGravity * length * length * length / gamma;
-  Fabric fabric = isotropic_fabric(density, 2000, 700, 600, bending);
-  fabric.bending_damping = 5e-3;
-  fabric.membrane_damping = 1e-3;
-  const auto place = [&](const Vec2& uv) { return Vec3(uv.y() - height, 0, uv.x()); };
-  Cloth strip = equilateral_sheet(static_cast<int>(0.03 / edge), cells + 1, edge, fabric, place);
-  if (half_clamp) {
-    Fabric stiff = fabric;
-    stiff.bending_stiffness = {3 * bending, 3 * bending, 3 * bending};
-    strip.fabrics.push_back(stiff);
-    strip.panels.push_back(strip.panels[0]);
-    strip.panels[1].fabric = 1;
-    for (std::size_t t = 0; t < strip.triangles.size(); ++t) {
-      double furthest = -1;
-      for (int v : strip.triangles[t]) furthest = std::max(furthest, strip.x[v].x());
-      if (furthest < 0.5 * height) strip.triangle_panel[t] = 1;
-    }
-  }
-  SolverOptions options;
-  options.air_drag = 2;
-  BackwardEuler solver(strip, options);
-  State state{strip.x, Positions(strip.x.size(), Vec3::Zero())};
-  Kinematic kinematic{std::vector<char>(strip.x.size(), 0), strip.x};
-  for (std::size_t i = 0; i < strip.x.size(); ++i) kinematic.held[i] = strip.x[i].x() < 0.5 * height;
-  std::vector<Contact> none;
-  StepTimes times;
-  for (int k = 0; k < 1500; ++k) EXPECT_TRUE(solver.step(state, 2e-3, 1, none, kinematic, times).accepted) << k;
-  Vec3 end = Vec3::Zero();
-  int count = 0;
-  for (std::size_t i = 0; i < strip.x.size(); ++i)
-    if (strip.x[i].x() > length - 0.5 * height) {
-      end += state.x[i];
-      ++count;
-    }
-  end /= count;
-  return {end.x() / length, -end.y() / length};
+Elastica elastica(double gamma) {
+  const std::string at = "/cantilever/" + std::to_string(reference_row("/cantilever", "Gamma", gamma));
+  return {reference(at + "/x"), reference(at + "/drop")};
 }
 
-std::string chain_row(double gamma, int n, bool half) {
-  // Rows come in the order of (gamma, n, clamp): full, half.
-  for (int row = reference_row("/discrete_chain", "Gamma", gamma);; row += 2) {
-    const std::string at = "/discrete_chain/" + std::to_string(row);
-    if (reference(at + "/n") == n) return "/discrete_chain/" + std::to_string(row + half);
-  }
-}
+double error_of(const Vec3& tip, const Elastica& exact) { return std::hypot(tip.x() - exact.x, -tip.y() - exact.drop); }
 
 }  // namespace
 
-TEST(CantileverReference, HingesAreTheDiscreteChain) {
+TEST(CantileverReference, TipIsWithinOnePerCentOfTheLength) {
   SKIP_WITHOUT_REFERENCES();
-  for (bool half : {false, true}) {
-    const Tip tip = cantilever(10, 20, half);
-    const std::string at = chain_row(10, 20, half);
-    EXPECT_NEAR(tip.x, reference(at + "/x"), 5e-3) << half;
-    EXPECT_NEAR(tip.drop, reference(at + "/drop"), 5e-3) << half;
+  for (double gamma : {0.1, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0}) {
+    const Elastica exact = elastica(gamma);
+    const Vec3 tip = tip_at(gamma, 40);
+    std::printf("Gamma %6g  x %.5f (%.5f)  drop %.5f (%.5f)  error %.2f %% of L\n", gamma, tip.x(), exact.x, -tip.y(),
+                exact.drop, 100 * error_of(tip, exact));
+    EXPECT_LT(error_of(tip, exact), 0.01) << gamma;
   }
 }
 
-TEST(CantileverReference, ProperClampGivesTheElastica) {
+TEST(CantileverReference, ErrorFallsWithTheEdgeLength) {
   SKIP_WITHOUT_REFERENCES();
-  for (double gamma : {1.0, 10.0, 50.0}) {
-    const Tip tip = cantilever(gamma, 20, true);
-    const std::string at = "/cantilever/" + std::to_string(reference_row("/cantilever", "Gamma", gamma));
-    EXPECT_NEAR(tip.x, reference(at + "/x"), 0.01) << gamma;
-    EXPECT_NEAR(tip.drop, reference(at + "/drop"), 0.01) << gamma;
+  for (double gamma : {1.0, 10.0, 100.0}) {
+    const Elastica exact = elastica(gamma);
+    double error[3];
+    for (int k = 0; k < 3; ++k) error[k] = error_of(tip_at(gamma, 10 << k), exact);
+    const double order = 0.5 * std::log2(error[0] / error[2]);
+    std::printf("Gamma %6g  error %.3f %.3f %.3f %% of L at L/10, L/20, L/40  order %.2f\n", gamma, 100 * error[0],
+                100 * error[1], 100 * error[2], order);
+    EXPECT_GT(error[0], error[1]);
+    EXPECT_GT(error[1], error[2]);
+    // Second order where the bent part is resolved barely; the rest is the irregular triangles along clamp and free
+    // edges, whose share of the strip falls with their size.
+    EXPECT_GT(order, 0.9) << gamma;
+    EXPECT_LT(error[2], 0.0025) << gamma;
+  }
+}
+
+TEST(CantileverReference, PeircesAngle) {
+  SKIP_WITHOUT_REFERENCES();
+  const Vec3 tip = tip_at(8, 40);
+  const double degrees = std::atan2(-tip.y(), tip.x()) * 180 / std::numbers::pi;
+  std::printf("chord at c = l/2: %.2f degrees (41.49)\n", degrees);
+  EXPECT_NEAR(degrees, 41.5, 0.5);
+}
+
+TEST(CantileverReference, StripCutAtAnyAngleDropsAsFar) {
+  double least = 1, largest = 0;
+  for (double degrees = 0; degrees <= 90; degrees += 15) {
+    const double drop = -tip_at(8, 40, degrees).y();
+    std::printf("cut at %2.0f degrees: drop %.4f L\n", degrees, drop);
+    least = std::min(least, drop);
+    largest = std::max(largest, drop);
+  }
+  std::printf("max/min %.4f\n", largest / least);
+  EXPECT_LT(largest / least, 1.02);
+}
+
+TEST(CantileverReference, WarpAndWeftBendWithTheirOwnStiffness) {
+  SKIP_WITHOUT_REFERENCES();
+  const double d = bending_at(20, kDensity, StripScene{}.length);
+  for (const auto& [degrees, gamma] : {std::pair{0.0, 20.0}, {90.0, 5.0}}) {
+    StripScene scene;
+    scene.degrees = degrees;
+    HeldCloth strip = make_strip(scene, strip_fabric(kDensity, {4 * d, d, 2.5 * d}));
+    settle(strip);
+    const Vec3 tip = tip_of(strip) / scene.length;
+    const Elastica exact = elastica(gamma);
+    std::printf("%s: x %.5f (%.5f)  drop %.5f (%.5f)\n", degrees == 0 ? "weft" : "warp", tip.x(), exact.x, -tip.y(),
+                exact.drop);
+    // The rows of triangles along the free edges take the curvature of least energy, which leans to the soft weft: they
+    // make this narrow warp strip, ten triangles wide, 2 to 3 % too soft; it falls with their share of the width.
+    EXPECT_LT(error_of(tip, exact), 0.015);
+  }
+}
+
+TEST(CantileverReference, PinnedRowWithoutAClampIsAHinge) {
+  StripScene scene;
+  scene.edge = scene.length / 10;
+  const double d = bending_at(1, kDensity, scene.length);
+  Scene pinned = strip_scene(scene, strip_fabric(kDensity, {d, d, d}));
+  pinned.garments[0].pins[0].clamp = false;
+  HeldCloth strip = held_cloth(pinned);
+  settle(strip);
+  EXPECT_GT(-tip_of(strip).y(), 0.99 * scene.length);  // it hangs
+}
+
+TEST(UprightStrip, StandsBelowItsCriticalHeightAndFallsAbove) {
+  SKIP_WITHOUT_REFERENCES();
+  const double critical = reference("/upright_strip/Gamma_critical");
+  for (double gamma : {7.0, 9.0}) {
+    StripScene scene;
+    scene.edge = scene.length / 20;
+    scene.upright = true;
+    scene.bow = 0.05;
+    const double d = bending_at(gamma, kDensity, scene.length);
+    HeldCloth strip = make_strip(scene, strip_fabric(kDensity, {d, d, d}));
+    settle(strip);
+    const Vec3 tip = tip_of(strip) / scene.length;
+    std::printf("Gamma %g (critical %.3f): tip at height %.4f L, %.4f L aside\n", gamma, critical, tip.y(), tip.x());
+    if (gamma < critical) {
+      EXPECT_LT(std::abs(tip.x()), 0.01);
+    } else {
+      EXPECT_GT(std::abs(tip.x()), 0.3);
+    }
   }
 }

@@ -62,12 +62,12 @@ TEST(HangingReference, Catenary) {
             << " %\nhorizontal pull / weight: reference " << pull_expected << ", ours " << pull << ", error "
             << 100 * (pull / pull_expected - 1) << " %\n";
   EXPECT_NEAR(sag, sag_expected, 0.005 * sag_expected);
-  EXPECT_NEAR(pull, pull_expected, 0.01 * pull_expected);
+  EXPECT_NEAR(pull, pull_expected, 0.005 * pull_expected);
 }
 
 TEST(HangingReference, AMeshedPanelHangsAsLongAsItsWeightMakesIt) {
   SKIP_WITHOUT_REFERENCES();
-  for (double ratio : {0.01, 0.05}) {
+  for (double ratio : {0.001, 0.01, 0.05, 0.2}) {
     const double length = 0.5, density = 0.2;
     Scene scene;
     scene.garments = {garment_of(Pattern{{rectangle_panel("strip", 0.08, length)}, {}}, 0.01)};
@@ -76,6 +76,7 @@ TEST(HangingReference, AMeshedPanelHangsAsLongAsItsWeightMakesIt) {
     garment.fabric.membrane_damping = 5e-2;
     garment.pins = {{PinEdge{0, 2}, PinFixed{}}};
     scene.solver.rest_kinetic_energy = 1e-13;
+    scene.solver.rest_residual = 1e-4;  // 0.1 % of so small an elongation needs better forces than a drape does
     scene.solver.max_time_step = 5e-3;
     CountingMonitor monitor;
     const Drape result = drape(scene, monitor);
@@ -91,6 +92,6 @@ TEST(HangingReference, AMeshedPanelHangsAsLongAsItsWeightMakesIt) {
     const double expected = reference("/membrane_stvk/hanging/" + std::to_string(row) + "/stvk");
     std::cout << "elongation at rho g L / Y = " << ratio << ": reference " << expected << ", ours " << elongation
               << ", error " << 100 * (elongation / expected - 1) << " %\n";
-    EXPECT_NEAR(elongation, expected, 0.01 * expected);
+    EXPECT_NEAR(elongation, expected, 0.002 * expected);
   }
 }

@@ -121,6 +121,6 @@ TEST(MembraneReference, HangingStrip) {
     const double elongation = -state.x[0].y() / length;
     const int row = reference_row("/membrane_stvk/hanging", "rhogL_over_Y", ratio);
     const double expected = reference("/membrane_stvk/hanging/" + std::to_string(row) + "/stvk");
-    EXPECT_NEAR(elongation, expected, 0.01 * expected) << ratio;
+    EXPECT_NEAR(elongation, expected, 0.002 * expected) << ratio;
   }
 }

@@ -39,9 +39,10 @@ TEST(CollisionMesh, DistanceAndFrictionComeFromTheFabric) {
   add_sheet(cloth, 5, 6, 0.015, 0);
   const CollisionMesh own = make_collision_mesh(cloth, 0), wanted = make_collision_mesh(cloth, 1e-3);
   for (std::size_t v = 0; v < cloth.x.size(); ++v) {
-    EXPECT_DOUBLE_EQ(own.distance[v], 0.18 * 0.015);
-    EXPECT_DOUBLE_EQ(wanted.distance[v], 1e-3);
-    EXPECT_DOUBLE_EQ(own.friction[v], 0.3);
+    const int self[] = {static_cast<int>(v)};
+    EXPECT_DOUBLE_EQ(own.pair_distance(self, self), 0.18 * 0.015);
+    EXPECT_DOUBLE_EQ(wanted.pair_distance(self, self), 1e-3);
+    EXPECT_DOUBLE_EQ(own.pair_friction(self, self), 0.3);
   }
 }
 
@@ -50,10 +51,38 @@ TEST(CollisionMesh, SmallTrianglesShrinkTheDistanceAroundThem) {
   add_sheet(cloth, 5, 6, 0.015, 0);
   // One triangle drawn a tenth as tall: its altitude bounds the distance of its own vertices only.
   cloth.flat[0] = {Vec2(0, 0), Vec2(0.015, 0), Vec2(0.0075, 0.0013)};
+  const auto distances = [&](double wanted) {
+    const CollisionMesh mesh = make_collision_mesh(cloth, wanted);
+    std::vector<double> list;
+    for (int v = 0; v < static_cast<int>(cloth.x.size()); ++v) list.push_back(mesh.pair_distance({&v, 1}, {&v, 1}));
+    return list;
+  };
+  const std::vector<double> own = distances(0);
+  for (int v : cloth.triangles[0]) EXPECT_NEAR(own[v], 0.3 * 0.0013, 1e-12);
+  EXPECT_EQ(std::count_if(own.begin(), own.end(), [](double d) { return d < 2e-3; }), 3);
+  for (double d : distances(5e-3)) EXPECT_LE(d, 5e-3);
+}
+
+TEST(CollisionMesh, TwoFabricsTakeHalfTheSumOfWhatBothWant) {
+  Cloth cloth;
+  add_sheet(cloth, 5, 6, 0.01, 0);
+  const int first = 0, second = static_cast<int>(cloth.x.size());
+  const std::size_t triangles = cloth.triangles.size();
+  add_sheet(cloth, 5, 6, 0.01, 0.005);
+  cloth.fabrics.push_back(cloth.fabrics[0]);
+  cloth.fabrics[1].thickness = 2.4e-3;
+  cloth.fabrics[1].friction_cloth = 0.5;
+  cloth.panels.push_back(cloth.panels[0]);
+  cloth.panels[1].fabric = 1;
+  for (std::size_t t = triangles; t < cloth.triangles.size(); ++t) cloth.triangle_panel[t] = 1;
   const CollisionMesh mesh = make_collision_mesh(cloth, 0);
-  for (int v : cloth.triangles[0]) EXPECT_NEAR(mesh.distance[v], 0.3 * 0.0013, 1e-12);
-  EXPECT_EQ(std::count_if(mesh.distance.begin(), mesh.distance.end(), [](double d) { return d < 2e-3; }), 3);
-  for (double d : make_collision_mesh(cloth, 5e-3).distance) EXPECT_LE(d, 5e-3);
+  const std::span<const int> a(&first, 1), b(&second, 1);
+  EXPECT_NEAR(mesh.pair_distance(a, a), 1.8e-3, 1e-12) << "0.18 edges: more than the thickness";
+  EXPECT_NEAR(mesh.pair_distance(b, b), 2.4e-3, 1e-12);
+  EXPECT_NEAR(mesh.pair_distance(a, b), 2.1e-3, 1e-12);
+  EXPECT_NEAR(mesh.pair_friction(a, b), 0.4, 1e-12);
+  EXPECT_NEAR(mesh.body_offset[first], 1e-3, 1e-12);
+  EXPECT_NEAR(mesh.body_offset[second], 1.2e-3, 1e-12);
 }
 
 Cloth two_sewn_sheets() {
@@ -109,8 +138,7 @@ TEST(CollisionMesh, ZonesOnlyWhereASeamIsWiderThanAskedFor) {
   cloth.x[closed.b] = cloth.x[closed.a];
   const CollisionMesh mesh = make_collision_mesh(cloth, 0, {{0, true, 1e-3}});
   EXPECT_TRUE(mesh.seam_zone[closed.a].empty());
-  for (std::size_t k = 1; k < cloth.seam_pairs.size(); ++k)
-    EXPECT_EQ(mesh.seam_zone[cloth.seam_pairs[k].a].size(), 1U);
+  for (std::size_t k = 1; k < cloth.seam_pairs.size(); ++k) EXPECT_EQ(mesh.seam_zone[cloth.seam_pairs[k].a].size(), 1U);
 }
 
 }  // namespace

@@ -60,6 +60,17 @@ void expect_consistent(const Drape& drape, const Scene& scene) {
     EXPECT_LE(drape.stretch_warp[t], r.stretch_warp.max + 1e-12);
     EXPECT_LE(drape.stretch_weft[t], r.stretch_weft.max + 1e-12);
   }
+  for (const StretchStatistics& s : {r.stretch_warp, r.stretch_weft, r.stretch_bias}) {
+    EXPECT_LE(s.min, s.p01);
+    EXPECT_LE(s.p01, s.median);
+    EXPECT_LE(s.median, s.p99);
+  }
+  EXPECT_LE(r.contacts.body_sticking, r.contacts.body);
+  EXPECT_LE(r.contacts.cloth_sticking, r.contacts.cloth);
+  if (r.status != "failed") {
+    EXPECT_GE(r.discretisation_error, 0);
+    EXPECT_GE(r.energies.size(), 4u);
+  }
   EXPECT_GE(r.residual_max, r.residual_rms);
   EXPECT_GE(r.kinetic_energy, 0);
   const StageTimes& t = r.time;
@@ -238,6 +249,19 @@ TEST(Drape, ATinyPatternIsNotDrapedAndItsSizeIsSaid) {
   const Report report = drape(misread_skirt(0.1), monitor).report;
   EXPECT_EQ(report.status, "failed") << report.stop_reason;
   EXPECT_TRUE(warns(report, "implausible_size: garment 0 is 0.0"));
+}
+
+TEST(Drape, TinyPanelsInsideTheBodyAreRefusedForBothReasons) {
+  Scene scene = misread_skirt(0.1);
+  scene.body = Body{SphereBody{Vec3::Zero(), 2.0}, 0.3};
+  const std::vector<Problem> problems = problems_of(scene);
+  ASSERT_GE(problems.size(), 2U);
+  EXPECT_EQ(problems[0].code, "panel_inside_body");
+  for (std::size_t p = 1; p < problems.size(); ++p) {
+    EXPECT_EQ(problems[p].code, "implausible_size");
+    EXPECT_EQ(problems[p].pointer, "/garments");
+    EXPECT_NE(problems[p].detail.find("are its units right?"), std::string::npos) << problems[p].detail;
+  }
 }
 
 TEST(Drape, ABodyWithAHoleCarriesTheClothAndIsToldOf) {

@@ -117,21 +117,22 @@ TEST(BlockMatrix, DiagonalOfContactsIsTheDenseOne) {
   }
 }
 
-TEST(BlockMatrix, OuterProductsAreAdded) {
-  const std::vector<int> nodes = {0, 1, 2, 3};
-  const std::array<BlockMatrix::Stencils, 1> stencils = {{{std::span<const int>(nodes), 4}}};
-  BlockMatrix matrix(4, stencils);
-  std::array<Eigen::Vector3f, 4> rows = {Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(-4, 5, 6), Eigen::Vector3f(7, -8, 9),
-                                         Eigen::Vector3f(0.5, 0.25, -1)};
-  std::array<int, 16> slots;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) slots[4 * i + j] = matrix.slot(i, j);
-  matrix.add_outer_products(slots, rows);
-  matrix.add_outer_products(slots, rows);
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j)
-      EXPECT_EQ(Eigen::Matrix3f(Eigen::Map<const Eigen::Matrix3f>(matrix.values(slots[4 * i + j]))),
-                2 * rows[i] * rows[j].transpose());
+TEST(BlockMatrix, ProductsOfRowsAreAdded) {
+  const std::vector<int> nodes = {0, 1, 2, 3, 4, 5};
+  const std::array<BlockMatrix::Stencils, 1> stencils = {{{std::span<const int>(nodes), 6}}};
+  BlockMatrix matrix(6, stencils);
+  std::array<Eigen::Matrix3f, 6> rows;
+  for (int i = 0; i < 6; ++i)
+    for (int k = 0; k < 9; ++k) rows[i](k / 3, k % 3) = static_cast<float>((7 * i + 5 * k) % 11 - 4);
+  std::array<int, 36> slots;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) slots[6 * i + j] = matrix.slot(i, j);
+  matrix.add_products(slots, rows);
+  matrix.add_products(slots, rows);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      EXPECT_EQ(Eigen::Matrix3f(Eigen::Map<const Eigen::Matrix3f>(matrix.values(slots[6 * i + j]))),
+                2 * rows[i].transpose() * rows[j]);
 }
 
 TEST(BlockMatrix, SlotOutsideTheTopologyThrows) {
@@ -147,6 +148,38 @@ TEST(ConjugateGradient, AgreesWithDenseSolve) {
   const Eigen::VectorXd expected = s.dense.ldlt().solve(as_vector(s.right));
   EXPECT_LT(outcome.relative_residual, 1e-6);
   EXPECT_LT((as_vector(x) - expected).norm(), 1e-4 * expected.norm());
+}
+
+TEST(RankOneMatrix, JoinsTheSystemAsItsDenseSelf) {
+  RandomSystem s(6);
+  std::mt19937 random(3);
+  std::normal_distribution<float> normal;
+  RankOneMatrix wide;
+  const std::vector<std::vector<int>> nodes = {{0, 3, 9, 20, 41, 48}, {40, 41, 5}};
+  wide.rebuild(s.rows, nodes);
+  ASSERT_EQ(wide.size(), 2);
+  for (int k = 0; k < 2; ++k) {
+    std::vector<Eigen::Vector3f> parts;
+    Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * s.rows);
+    for (int node : nodes[k]) {
+      parts.emplace_back(3 * normal(random), 3 * normal(random), 3 * normal(random));
+      g.segment<3>(3 * node) = parts.back().cast<double>();
+    }
+    wide.set(k, parts);
+    s.dense += g * g.transpose();
+  }
+  for (int i = 0; i < s.rows; ++i) {
+    const Eigen::Matrix3f diagonal =
+        Eigen::Map<const Eigen::Matrix3f>(s.matrix.values(i)) + s.contact.diagonal(i) + wide.diagonal(i);
+    EXPECT_LT((diagonal.cast<double>() - s.dense.block<3, 3>(3 * i, 3 * i)).norm(), 1e-4);
+    s.preconditioner.set(i, diagonal);
+  }
+  NodeVector x;
+  const CgOutcome outcome =
+      ConjugateGradient().solve(s.matrix, s.contact, s.preconditioner, s.right, 1e-6, 2000, x, &wide);
+  EXPECT_LT(outcome.relative_residual, 1e-6);
+  const Eigen::VectorXd expected = s.dense.ldlt().solve(as_vector(s.right));
+  EXPECT_LT((as_vector(x) - expected).norm(), 1e-3 * expected.norm());
 }
 
 TEST(ConjugateGradient, HeldNodesStayAndTheRestIsTheReducedSystem) {

@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <set>
 
 namespace toile {
@@ -243,6 +244,29 @@ TEST(BuildCloth, SaysWhereAPatternIsWrong) {
   Pattern huge = good;
   huge.panels[0] = square_panel("a", 100);
   EXPECT_EQ(problem_of(scene_of(huge, 0.01)), "too_many_vertices /garments/0");
+}
+
+TEST(BuildCloth, GrainTurnsTheFlatShapeAndNothingElse) {
+  Pattern pattern;
+  pattern.panels = {square_panel("a", 0.1), square_panel("b", 0.1)};
+  Scene scene = scene_of(pattern, 0.02);
+  const Cloth straight = build_cloth(scene);
+  scene.garments[0].grain = std::numbers::pi / 6;
+  scene.garments[0].panel_grain["b"] = -std::numbers::pi / 2;
+  const Cloth turned = build_cloth(scene);
+  EXPECT_EQ(straight.x, turned.x);
+  EXPECT_EQ(straight.triangles, turned.triangles);
+  for (std::size_t t = 0; t < turned.triangles.size(); ++t) {
+    const bool first = turned.triangle_panel[t] == 0;
+    // Where the warp runs in the drawing has the flat direction +v.
+    const double grain = first ? std::numbers::pi / 6 : -std::numbers::pi / 2;
+    const Vec2 warp(-std::sin(grain), std::cos(grain)), weft(std::cos(grain), std::sin(grain));
+    for (std::size_t k = 1; k < 3; ++k) {
+      const Vec2 drawn = straight.flat[t][k] - straight.flat[t][0], flat = turned.flat[t][k] - turned.flat[t][0];
+      EXPECT_NEAR(flat.y(), warp.dot(drawn), 1e-15);
+      EXPECT_NEAR(flat.x(), weft.dot(drawn), 1e-15);
+    }
+  }
 }
 
 TEST(BuildCloth, NamesTheSizeOfAPatternInTheWrongUnit) {

@@ -1,6 +1,7 @@
 #include "engine/quality/measure.h"
 
 #include "engine/parallel/state_hash.h"
+#include "engine/quality/warnings.h"
 
 #include <gtest/gtest.h>
 
@@ -47,6 +48,9 @@ TEST(MeasureGeometry, FillsWhatTheFinalStateShowsAndNothingElse) {
     EXPECT_NEAR(value, 0.1, 1e-12);
   for (double value : {report.stretch_warp.mean, report.stretch_warp.p99, report.stretch_warp.max})
     EXPECT_NEAR(value, 0.02, 1e-12);
+  for (double value : {report.stretch_bias.min, report.stretch_bias.median, report.stretch_bias.max})
+    EXPECT_NEAR(value, std::sqrt((1.1 * 1.1 + 1.02 * 1.02) / 2) - 1, 1e-12);
+  EXPECT_EQ(report.compressed_share, 0);
   EXPECT_NEAR(report.penetration_max, 0.005, 2e-4);
   EXPECT_EQ(report.self_intersections, 0);
   EXPECT_EQ(report.result_sha256, sha256_hex(cloth.x));
@@ -55,6 +59,14 @@ TEST(MeasureGeometry, FillsWhatTheFinalStateShowsAndNothingElse) {
   EXPECT_EQ(report.residual_rms, 0.5);
   EXPECT_EQ(report.kinetic_energy, 3);
   EXPECT_EQ(report.seam_gap_max, 1e-4);
+}
+
+TEST(MeasureGeometry, SaysHowMuchIsSqueezedBeyondTheModel) {
+  Cloth cloth = square(0);
+  cloth.x[1].x() *= 0.3;  // squeezes one of the two triangles along weft
+  Report report;
+  measure_geometry(cloth, nullptr, report);
+  EXPECT_NEAR(report.compressed_share, 0.5, 1e-12);
 }
 
 TEST(MeasureGeometry, WithoutABodyNothingIsInsideIt) {
@@ -96,7 +108,7 @@ TEST(Warnings, SayWhatAReaderShouldNotOverlook) {
   fine.stretch_warp.p99 = 0.04;
   fine.penetration_max = 1e-3;
   fine.residual_rms = 0.01;
-  add_warnings(cloth, fine);
+  add_warnings(cloth, {}, fine);
   EXPECT_TRUE(fine.warnings.empty());
 
   Report bad;
@@ -105,7 +117,7 @@ TEST(Warnings, SayWhatAReaderShouldNotOverlook) {
   bad.penetration_max = 3.4e-3;
   bad.self_intersections = 17;
   bad.residual_rms = 0.5;
-  add_warnings(cloth, bad);
+  add_warnings(cloth, {}, bad);
   EXPECT_EQ(bad.warnings.size(), 5u);
   EXPECT_TRUE(warns(bad, "said before"));
   EXPECT_TRUE(warns(bad, "12.3 %"));
@@ -119,7 +131,7 @@ TEST(Warnings, KnitsMayStretch) {
   cloth.fabrics[0].woven = false;
   Report report;
   report.stretch_weft.p99 = 0.2;
-  add_warnings(cloth, report);
+  add_warnings(cloth, {}, report);
   EXPECT_TRUE(report.warnings.empty());
 }
 

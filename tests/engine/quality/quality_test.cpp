@@ -38,6 +38,16 @@ TEST(Stretch, ShearShowsOnTheBiasOnly) {
   EXPECT_NEAR(s.bias[0], std::sqrt(1 + std::sin(gamma)) - 1, 1e-14);
 }
 
+TEST(Stretch, TheSmallerPrincipalRatioWhateverItsDirection) {
+  // 1.2 and 0.5 along directions at 30° to warp and weft.
+  const Mat2 turn = Eigen::Rotation2Dd(0.5236).toRotationMatrix();
+  const Mat2 f = turn * Vec2(1.2, 0.5).asDiagonal() * turn.transpose();
+  const std::array<Vec2, 3> flat{Vec2(0, 0), Vec2(0.3, 0.1), Vec2(0.1, 0.4)};
+  Positions x;
+  for (const Vec2& u : flat) x.push_back({(f * u).x(), 0.7, (f * u).y()});
+  EXPECT_NEAR(triangle_stretch({flat}, {{0, 1, 2}}, x).smallest[0], -0.5, 1e-14);
+}
+
 TEST(Stretch, StatisticsAreWeightedByArea) {
   std::vector<double> stretch(100), area(100, 1.0);
   for (int i = 0; i < 100; ++i) stretch[i] = 0.001 * i;
@@ -45,6 +55,9 @@ TEST(Stretch, StatisticsAreWeightedByArea) {
   EXPECT_NEAR(s.mean, 0.0495, 1e-15);
   EXPECT_DOUBLE_EQ(s.p99, 0.098);
   EXPECT_DOUBLE_EQ(s.max, 0.099);
+  EXPECT_DOUBLE_EQ(s.min, 0);
+  EXPECT_DOUBLE_EQ(s.p01, 0);
+  EXPECT_DOUBLE_EQ(s.median, 0.049);
   area[99] = 1000;
   s = stretch_statistics(stretch, area);
   EXPECT_DOUBLE_EQ(s.p99, 0.099);

@@ -166,6 +166,27 @@ TEST(CheckScene, NamesWhatIsWrongWithFabricsBodiesPinsAndSolver) {
       {"fabric_value /garments/0/fabric", [](Scene& s) { s.garments[0].fabric.stretch_stiffness.bias = kNan; }},
       {"fabric_value /garments/0/fabric", [](Scene& s) { s.garments[0].fabric.poisson_stiffness = 1800; }},
       {"fabric_value /garments/0/fabric", [](Scene& s) { s.garments[0].fabric.bending_stiffness.warp = -1; }},
+      {"fabric_value /garments/0/fabric", [](Scene& s) { s.garments[0].fabric.bending_softening.bias = -1e-3; }},
+      {"fabric_value /garments/0/fabric", [](Scene& s) { s.garments[0].fabric.bending_hysteresis.weft = kNan; }},
+      {"fabric_value /garments/0/fabric", [](Scene& s) { s.garments[0].fabric.bending_hysteresis_onset = 0; }},
+      {"fold_value /garments/0/seams/bending_factor",
+       [](Scene& s) { s.garments[0].seam_bending.stiffness_factor = 0; }},
+      {"unknown_edge /garments/0/folds/0/edge",
+       [](Scene& s) {
+         s.garments[0].folds = {{PinEdge{0, 99}, 1, 1}};
+       }},
+      {"unknown_label /garments/0/folds/0/label",
+       [](Scene& s) {
+         s.garments[0].folds = {{PinLabel{"cuff"}, 1, 1}};
+       }},
+      {"vertex_out_of_range /garments/0/folds/0/vertices",
+       [](Scene& s) {
+         s.garments[0].folds = {{PinVertices{{0, 1}}, 1, 1}};
+       }},
+      {"fold_value /garments/0/folds/0",
+       [](Scene& s) {
+         s.garments[0].folds = {{PinEdge{0, 0}, 4, 1}};
+       }},
       {"body_value /body/sphere",
        [](Scene& s) {
          s.body->shape = SphereBody{Vec3::Zero(), 0};
@@ -195,6 +216,35 @@ TEST(CheckScene, NamesWhatIsWrongWithFabricsBodiesPinsAndSolver) {
          PinMoved moved;
          moved.key_frames.resize(2);
          pin(s).hold = moved;
+       }},
+      {"unknown_label /garments/0/elastics/0/label",
+       [](Scene& s) {
+         s.garments[0].elastics = {{PinLabel{"cuff"}, 0.8, 30, 0}};
+       }},
+      {"trim_value /garments/0/elastics/0/length_percent",
+       [](Scene& s) {
+         s.garments[0].elastics = {{PinLabel{"lower_interface"}, kNan, 30, 0}};
+       }},
+      {"trim_value /garments/0/drawcords/0/stiffness_N",
+       [](Scene& s) {
+         s.garments[0].drawcords = {{PinLabel{"lower_interface"}, 0.7, 0, 0}};
+       }},
+      {"selects_no_edge /garments/0/drawcords/0",
+       [](Scene& s) {
+         s.garments[0].drawcords = {{PinNearest{Vec3::Zero()}, 0.7, 100, 0}};
+       }},
+      {"unknown_panel /garments/0/trims/0/attach/0/panel",
+       [](Scene& s) {
+         s.garments[0].trims = {{{}, {{"sleeve", Vec2::Zero()}}}};
+       }},
+      {"trim_value /garments/0/trims/0/attach", [](Scene& s) { s.garments[0].trims.resize(1); }},
+      {"trim_value /garments/0/trims/0/button",
+       [](Scene& s) {
+         s.garments[0].trims = {{{0.01, 0.002, 0}, {{"front", Vec2::Zero()}}}};
+       }},
+      {"pin_value /garments/0/pins/0/friction",
+       [&](Scene& s) {
+         pin(s) = {PinLabel{"lower_interface"}, PinAttached{true, -1}};
        }},
       {"solver_value /solver/max_time_step_s", [](Scene& s) { s.solver.max_time_step = kNan; }},
       {"solver_value /solver/splitting_factor", [](Scene& s) { s.solver.splitting_factor = 1; }},

@@ -52,6 +52,26 @@ TEST(PositionAt, AFirstKeyFrameAwayFromTheStartHoldsFromTheBeginning) {
   EXPECT_EQ(position_at({0, Vec3(2, 0, 0), &motion}, 0), Vec3(2, 1, 0));
 }
 
+TEST(SlidingVertices, AreThoseOfTheirPinsRenumberedAndNotHeld) {
+  Scene scene = tube_scene();
+  PinAttached sliding;
+  sliding.slides = true;
+  Garment& garment = scene.garments[0];
+  garment.pins = {{PinEdge{0, 2}, sliding}, {PinVertices{{3}}, sliding}};
+  const Cloth apart = build_cloth(scene);
+  const CountingMonitor monitor;
+  const BodyField body = make_body_field(*scene.body, 0.03);
+  const Assembly assembly = assemble(scene, apart, {&body, nullptr}, [](const AssemblyState&) { return true; });
+  ASSERT_TRUE(assembly.open_seams.empty());
+  const auto found = sliding_vertices(scene, apart, assembly.cloth, assembly.old_to_new);
+  EXPECT_EQ(found.size(), pinned_vertices(garment.pins[0], 0, apart).size() + 1);
+  for (const SlidingVertex& s : found) EXPECT_EQ(s.friction, scene.body->friction);
+  EXPECT_TRUE(held_vertices(scene, assembly.cloth, assembly.attached, found).empty());
+  EXPECT_FALSE(held_vertices(scene, assembly.cloth, assembly.attached).empty());
+  std::get<PinAttached>(garment.pins[0].hold).friction = 0.7;
+  EXPECT_EQ(sliding_vertices(scene, apart, assembly.cloth, assembly.old_to_new).back().friction, 0.7);
+}
+
 TEST(LastKeyFrame, IsTheLatestOfAll) {
   PinMoved early, late = quarter_turn();
   early.key_frames = {{0.5, Vec3::Zero(), Vec3::Zero()}};

@@ -162,23 +162,6 @@ TEST(PositionBased, FoldsOntoItselfWithoutCrossing) {
   }
 }
 
-TEST(PositionBased, ForgottenMotionDoesNotGoOn) {
-  const auto move_after_fall = [](bool forget) {
-    Cloth cloth;
-    add_sheet(cloth, 6, 6, kEdge, 0);
-    PositionBased solver = solver_of(cloth);
-    PositionBasedOptions options;
-    options.fall = {0, -1e-4, 0};
-    for (int s = 0; s < 10; ++s) solver.step(cloth.x, options);
-    if (forget) solver.forget_motion();
-    options.fall = Vec3::Zero();
-    solver.step(cloth.x, options);
-    return solver.largest_move();
-  };
-  EXPECT_GT(move_after_fall(false), 1e-4);
-  EXPECT_LT(move_after_fall(true), 1e-9);
-}
-
 TEST(PositionBased, SameBytesOnAnyNumberOfThreads) {
   const auto hash = [](int threads) {
     const ThreadLimit limit(threads);

@@ -66,6 +66,20 @@ TEST(ContactTerm, RepulsionDerivatives) {
   EXPECT_EQ(potential(c).gradient(open).norm(), 0);
 }
 
+TEST(ContactTerm, ABilateralContactPullsBackWhatLeaves) {
+  Contact c = vertex_triangle(0);
+  c.bilateral = true;
+  for (double depth : {-3e-3, -1e-4, 1e-3})
+    check_derivatives<4>(potential(c), nodes_for(c, depth, Vec3::Zero()), std::abs(depth), "bilateral");
+  c.friction = 0.5;
+  const Vec3 p = point_of(c, nodes_for(c, -1e-3, Vec3(2e-3, 0, 1e-3)));
+  const ContactResponse r = contact_response(c, kStiffness, p);
+  EXPECT_NEAR(r.force.dot(c.normal), -kStiffness * 1e-3, 1e-12);
+  EXPECT_NEAR(r.normal_force, kStiffness * 1e-3, 1e-12);
+  EXPECT_TRUE(r.sliding);
+  EXPECT_NEAR((r.force - r.force.dot(c.normal) * c.normal).norm(), 0.5 * r.normal_force, 1e-12);
+}
+
 TEST(ContactTerm, StickingDerivatives) {
   const Contact c = vertex_triangle(0.5);
   const auto x = nodes_for(c, 1e-3, Vec3(1e-4, 0, 2e-4));

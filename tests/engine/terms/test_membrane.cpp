@@ -1,5 +1,6 @@
 #include "engine/terms/membrane.h"
 
+#include "engine/scene/stretch_test.h"
 #include "tests/engine/terms/check_term.h"
 
 using namespace toile;
@@ -32,6 +33,16 @@ MembraneStencil stencil(bool mirrored = false) { return membrane_stencils(one_tr
 StencilPoints<3> rest(bool mirrored = false) {
   const Cloth cloth = one_triangle(mirrored);
   return {cloth.x[0], cloth.x[1], cloth.x[2]};
+}
+
+/// A stencil of cloth measured in all three directions: a soft toe, then stiffening.
+MembraneStencil measured_stencil() {
+  Cloth cloth = one_triangle();
+  const StretchTest readings{{{0.01, 4}, {0.03, 20}, {0.06, 80}, {0.1, 220}},
+                             {{0.02, 4}, {0.06, 20}, {0.12, 90}},
+                             {{0.03, 3}, {0.08, 12}, {0.15, 40}}};
+  apply_stretch_test(readings, 0.25, "", cloth.fabrics[0]);
+  return membrane_stencils(cloth).front();
 }
 
 Potential<3> elastic(const MembraneStencil& s) {
@@ -79,6 +90,68 @@ TEST(Membrane, DerivativesAtBadStates) {
   check_term<3>(elastic(s), scaled_in_plane(1e-3, 1e-3), 1e-3 * kSize, "nearly a point");
   check_term<3>(elastic(s), scaled_in_plane(3, 0.5), 0.1 * kSize, "torn long");
   check_term<3>(elastic(s), scaled_in_plane(-1, 1), 0.1 * kSize, "turned over");
+}
+
+TEST(Membrane, DerivativesOfMeasuredCloth) {
+  // Between knots: across one the Hessian has a kink, which no difference quotient sees through.
+  const MembraneStencil s = measured_stencil();
+  std::mt19937 random(5);
+  check_term<3>(elastic(s), scaled_in_plane(1.03, 1.045), 1e-3 * kSize, "both stretched");
+  check_term<3>(elastic(s), scaled_in_plane(0.97, 1.02), 1e-3 * kSize, "pulled along warp, narrower");
+  check_term<3>(elastic(s), scaled_in_plane(1.3, 1.2), 0.01 * kSize, "beyond the readings");
+  check_term<3>(elastic(s), scaled_in_plane(0.4, 0.5), 0.01 * kSize, "compressed");
+  for (int k = 0; k < 20; ++k)
+    check_term<3>(elastic(s), perturbed<3>(scaled_in_plane(1.03, 1.04), 2e-4, random), 1e-5 * kSize,
+                  "sample " + std::to_string(k));
+  for (int k = 0; k < 20; ++k) {
+    const StencilPoints<3> x = perturbed<3>(scaled_in_plane(1.03, 1.04), 3e-4, random);
+    const StencilPoints<3> v = perturbed<3>({Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}, 1, random);
+    check_derivatives<3>(dissipation(s, x), v, 1, "dissipation of measured cloth");
+  }
+}
+
+TEST(Membrane, ResponseOfMeasuredClothAgreesWithTheParts) {
+  std::mt19937 random(6);
+  const MembraneStencil s = measured_stencil();
+  const SystemWeights weights{1e-6, 1e-3, 0.3};
+  const StencilPoints<3> x = perturbed<3>(scaled_in_plane(1.03, 1.04), 5e-4, random);
+  const StencilPoints<3> still = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  const StencilPoints<3> v = perturbed<3>(still, 0.5, random);
+  StencilResponse<3> r;
+  membrane_response(s, x, v, weights, r);
+  const StencilVector<3> force = -weights.fabric * (membrane_gradient(s, x) + membrane_dissipation_gradient(s, x, v));
+  for (int i = 0; i < 3; ++i) EXPECT_LT((r.force[i] - force.segment<3>(3 * i)).norm(), 1e-12 * force.norm());
+  membrane_response(s, x, still, weights, r);
+  const StencilMatrix<3> system = weights.fabric * (weights.stiffness * membrane_hessian_psd(s, x) +
+                                                    weights.dissipation * membrane_dissipation_hessian(s, x));
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j)
+      EXPECT_LT((r.block[upper_block<3>(i, j)].cast<double>() - system.block<3, 3>(3 * i, 3 * j)).norm(),
+                1e-6 * system.norm());
+}
+
+TEST(Membrane, StraightReadingsAreTheLinearFabric) {
+  // What a linear fabric would give in the laboratory makes the same forces as its moduli, at the readings.
+  Cloth linear = one_triangle(), measured = one_triangle();
+  linear.fabrics[0].poisson_stiffness = 0.25 * std::sqrt(1000.0 * 600.0);
+  const double warp = 1000 * (1 - 0.0625), weft = 600 * (1 - 0.0625);
+  StretchTest readings;
+  for (double strain : {0.01, 0.02, 0.03, 0.04}) {
+    const double stretch = 1 + strain, green = 0.5 * (stretch * stretch - 1);
+    readings.warp.push_back({strain, stretch * warp * green});
+    readings.weft.push_back({strain, stretch * weft * green});
+  }
+  apply_stretch_test(readings, 0.25, "", measured.fabrics[0]);
+  EXPECT_NEAR(measured.fabrics[0].stretch_stiffness.warp, 1000, 1e-9);
+  EXPECT_NEAR(measured.fabrics[0].stretch_stiffness.weft, 600, 1e-9);
+  EXPECT_NEAR(measured.fabrics[0].poisson_stiffness, linear.fabrics[0].poisson_stiffness, 1e-9);
+  std::mt19937 random(8);
+  const MembraneStencil a = membrane_stencils(linear).front(), b = membrane_stencils(measured).front();
+  for (double spread : {1e-4, 1e-3}) {
+    const StencilPoints<3> x = perturbed<3>(rest(), spread, random);
+    EXPECT_LT((membrane_gradient(a, x) - membrane_gradient(b, x)).norm(), 1e-9 * membrane_gradient(a, x).norm());
+    EXPECT_NEAR(membrane_energy(a, x), membrane_energy(b, x), 1e-9 * membrane_energy(a, x));
+  }
 }
 
 TEST(Membrane, CollapsedTriangleAnswersWithFiniteNumbers) {

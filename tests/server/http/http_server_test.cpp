@@ -1,6 +1,7 @@
 #include "server/http/http_server.h"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 
 #include <chrono>
 #include <future>
@@ -44,6 +45,30 @@ TEST(HttpServer, AStopWhileServeBeginsIsKept) {
     server->stop();
     ASSERT_EQ(served.wait_for(10s), std::future_status::ready) << "stopped after " << delay_us << " µs";
   }
+}
+
+/// This process's descriptor that listens; −1: none or several.
+int listening_socket() {
+  int found = -1, count = 0;
+  for (int descriptor = 0; descriptor < 1024; ++descriptor) {
+    int listens = 0;
+    socklen_t size = sizeof listens;
+    if (getsockopt(descriptor, SOL_SOCKET, SO_ACCEPTCONN, &listens, &size) != 0 || listens == 0) continue;
+    found = descriptor;
+    ++count;
+  }
+  return count == 1 ? found : -1;
+}
+
+TEST(HttpServer, AListenerThatBreaksIsAnError) {
+  const auto server = bound_server();
+  std::future<void> served = serve(server);
+  const int listener = listening_socket();
+  ASSERT_GE(listener, 0);
+  EXPECT_EQ(served.wait_for(50ms), std::future_status::timeout);
+  shutdown(listener, SHUT_RDWR);
+  ASSERT_EQ(served.wait_for(10s), std::future_status::ready);
+  EXPECT_THROW(served.get(), std::runtime_error);
 }
 
 TEST(HttpServer, StopsTwice) {

@@ -54,7 +54,7 @@ Answer ServiceFixture::raw(const std::string& bytes) const {
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<std::uint16_t>(port_));
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  const timeval patience{5, 0};
+  const timeval patience{60, 0};  // a machine may be busy; that the server hangs up, the tests see sooner
   setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   setsockopt(connection, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
   std::string text;

@@ -1,0 +1,102 @@
+#include "engine/check.h"
+
+#include "engine/mesh/build_cloth.h"
+#include "engine/mesh/match_mesh.h"
+#include "engine/mesh/sewing.h"
+#include "engine/parallel/thread_limit.h"
+#include "engine/quality/admissible_contact.h"
+#include "engine/quality/measure.h"
+#include "engine/quality/mesh_bending.h"
+#include "engine/quality/warnings.h"
+#include "engine/scene/check.h"
+#include "engine/solve/still_cloth.h"
+
+#include <optional>
+
+namespace toile {
+namespace {
+
+constexpr double kAtRest = 0.05;      // rms residual, where the scene does not ask for one
+constexpr double kClosedSeam = 1e-3;  // [m]
+
+std::vector<int> attached_vertices(const Scene& scene, const Cloth& sewn) {
+  std::vector<int> attached;
+  for (std::size_t g = 0; g < scene.garments.size(); ++g)
+    for (const Pin& pin : scene.garments[g].pins) {
+      if (!std::holds_alternative<PinAttached>(pin.hold)) continue;
+      const std::vector<int> chosen = pinned_vertices(pin, static_cast<int>(g), sewn);
+      attached.insert(attached.end(), chosen.begin(), chosen.end());
+    }
+  return attached;
+}
+
+}  // namespace
+
+std::vector<double> measure_equilibrium(const Cloth& sewn, const Positions& start, const SimulationScene& scene,
+                                        const CheckOptions& options, Report& report) {
+  const StillCloth still = still_cloth(sewn, start, scene);
+  report.energies = still.energies;
+  measure_contacts(sewn, still.contacts, still.cloth_contacts, scene.options.contact_stiffness, Friction::unknown,
+                   report);
+  std::vector<Contact> contacts = still.contacts;
+  std::size_t cloth_contacts = still.cloth_contacts;
+  if (options.touch > 0) {
+    TouchingOptions wider = touching_options(scene);
+    wider.contact_distance = wider.body_offset = options.touch;
+    Touching touching(sewn, wider);
+    contacts = touching.detect(sewn.x);
+    cloth_contacts = touching.cloth_contacts();
+  }
+  std::vector<char> held(sewn.x.size(), 0);
+  for (const HeldVertex& h : scene.held) held[h.vertex] = 1;
+  const AdmissibleContact best = admissible_contact(contacts, still.force, still.mass, held);
+  measure_residual(best.net_force, still.mass, held, report);
+  const std::span<const Contact> all(contacts);
+  const std::span<const Vec3> forces(best.contact_force);
+  const ContactCount cloth = count_contacts(all.first(cloth_contacts), forces.first(cloth_contacts));
+  const ContactCount body = count_contacts(all.subspan(cloth_contacts), forces.subspan(cloth_contacts));
+  report.contacts = {body.pressing, cloth.pressing, body.sticking, cloth.sticking};
+  return still.contact_distance;
+}
+
+Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& options) {
+  const ThreadLimit threads(scene.solver.threads);
+  check_scene(scene);
+  Cloth apart = build_cloth(scene);
+  warn_of_mesh_bending(apart, given_as_mesh(scene));
+  MatchedCloth matched = match_mesh(apart, mesh);
+  Cloth at_start = apart;
+  const std::vector<int> old_to_new = merge_seams(at_start);
+  std::optional<BodyField> body;
+  if (scene.body) body = make_body_field(*scene.body, smallest_edge_length(scene));
+
+  Report report;
+  report.warnings = matched.cloth.warnings;
+  if (body)
+    for (const std::string& warning : body->warnings()) report.warnings.push_back(warning);
+  report.seam_gap_max = matched.seam_gap_max;
+  const std::vector<SlidingVertex> sliding = sliding_vertices(scene, apart, at_start, old_to_new);
+  Trimmings trimmings = make_trimmings(scene, matched.cloth);
+  if (!trimmings.trims.empty()) {
+    trimmings.trims.clear();
+    trimmings.attachments.clear();
+    report.warnings.emplace_back("trims are not judged: a mesh does not say where they are");
+  }
+  const SimulationScene still{scene.solver,
+                              body ? &*body : nullptr,
+                              scene.body ? scene.body->friction.value_or(-1) : 0.0,
+                              held_vertices(scene, at_start, attached_vertices(scene, at_start), sliding),
+                              scene.friction_pairs,
+                              sliding,
+                              std::move(trimmings)};
+  const std::vector<double> contact_distance = measure_equilibrium(matched.cloth, at_start.x, still, options, report);
+  measure_geometry(matched.cloth, still.body, report);
+  add_warnings(matched.cloth, contact_distance, report);
+  const double at_rest = scene.solver.rest_residual > 0 ? scene.solver.rest_residual : kAtRest;
+  const bool converged = report.residual_rms < at_rest && report.seam_gap_max < kClosedSeam;
+  report.status = converged ? "converged" : "not_converged";
+  report.stop_reason = "checked";
+  return report;
+}
+
+}  // namespace toile

@@ -1,0 +1,68 @@
+#include "engine/quality/discretisation_error.h"
+
+#include "engine/geometry/dihedral.h"
+#include "engine/mesh/topology.h"
+#include "engine/terms/contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace toile {
+namespace {
+
+double flat_area(const std::array<Vec2, 3>& corner) {
+  const Vec2 a = corner[1] - corner[0], b = corner[2] - corner[0];
+  return 0.5 * std::abs(a.x() * b.y() - a.y() * b.x());
+}
+
+/// Of the edge v0–v1, in the flat pattern of a triangle that has it.
+Vec2 flat_edge(const Cloth& cloth, int triangle, int v0, int v1) {
+  const auto at = [&](int vertex) {
+    const Triangle& corners = cloth.triangles[triangle];
+    return cloth.flat[triangle][std::find(corners.begin(), corners.end() - 1, vertex) - corners.begin()];
+  };
+  return at(v1) - at(v0);
+}
+
+double shape_error(const Cloth& cloth, const std::vector<double>& area, double total) {
+  std::vector<Mat2> curvature(area.size(), Mat2::Zero());  // times area
+  for (const Hinge& h : hinges(cloth.triangles)) {
+    const double angle = dihedral_angle(cloth.x[h.v0], cloth.x[h.v1], cloth.x[h.v2], cloth.x[h.v3]);
+    for (const int t : {h.triangle_a, h.triangle_b}) {
+      const Vec2 edge = flat_edge(cloth, t, h.v0, h.v1), normal = Vec2(-edge.y(), edge.x());
+      if (edge.norm() > 0) curvature[t] += 0.5 * angle / edge.norm() * normal * normal.transpose();
+    }
+  }
+  double sum = 0;
+  for (std::size_t t = 0; t < area.size(); ++t) sum += 4 / std::numbers::sqrt3 * area[t] * curvature[t].norm();
+  return kShapeErrorFactor * sum / total;
+}
+
+double offset_error(const Cloth& cloth, const std::vector<double>& area, double total,
+                    std::span<const Contact> body_contacts) {
+  std::vector<double> share(cloth.x.size(), 0.0), half_thickness(cloth.x.size(), 0.0);
+  for (std::size_t t = 0; t < cloth.triangles.size(); ++t)
+    for (int v : cloth.triangles[t]) {
+      share[v] += area[t] / (3 * total);
+      half_thickness[v] = 0.5 * cloth.fabrics[cloth.panels[cloth.triangle_panel[t]].fabric].thickness;
+    }
+  double sum = 0;
+  for (const Contact& c : body_contacts) {
+    if (c.count != 1 || contact_gap(c, cloth.x) >= c.distance) continue;
+    sum += share[c.nodes[0]] * std::max(0.0, c.distance - half_thickness[c.nodes[0]]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+double discretisation_error(const Cloth& cloth, std::span<const Contact> body_contacts) {
+  std::vector<double> area;
+  double total = 0;
+  for (const std::array<Vec2, 3>& corner : cloth.flat) total += area.emplace_back(flat_area(corner));
+  if (!(total > 0)) return 0;
+  return shape_error(cloth, area, total) + offset_error(cloth, area, total, body_contacts);
+}
+
+}  // namespace toile

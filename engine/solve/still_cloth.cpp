@@ -1,0 +1,40 @@
+#include "engine/solve/still_cloth.h"
+
+#include "engine/solve/backward_euler.h"
+#include "engine/solve/clamps.h"
+
+#include <algorithm>
+
+namespace toile {
+
+namespace {
+
+/// The cloth with its clamps' points where they are at the end.
+Cloth with_clamps(const Cloth& cloth, const Positions& start, const std::vector<HeldVertex>& held) {
+  Cloth clamped = cloth;
+  clamped.x = start;
+  const std::vector<HeldVertex> points = add_clamps(clamped, held);
+  std::copy(cloth.x.begin(), cloth.x.end(), clamped.x.begin());
+  for (const HeldVertex& point : points) clamped.x[point.vertex] = position_at(point, last_key_frame(held));
+  return clamped;
+}
+
+}  // namespace
+
+StillCloth still_cloth(const Cloth& cloth, const Positions& start, const SimulationScene& scene) {
+  const Cloth clamped = with_clamps(cloth, start, scene.held);
+  const BackwardEuler solver(clamped, scene.options, scene.trimmings);
+  Touching touching(cloth, touching_options(scene));
+  StillCloth still;
+  still.mass = solver.masses();
+  still.contacts = touching.detect(cloth.x);
+  still.cloth_contacts = touching.cloth_contacts();
+  still.contact_distance = touching.contact_distance();
+  still.force = solver.static_forces(clamped.x, {});
+  still.energies = solver.energies_by_term(clamped.x);
+  still.mass.resize(cloth.x.size());
+  still.force.resize(cloth.x.size());
+  return still;
+}
+
+}  // namespace toile

@@ -1,0 +1,23 @@
+#pragma once
+// Forces and energies of a cloth that is given, not simulated: every velocity is zero, friction is unknown.
+
+#include "engine/contact/contact.h"
+#include "engine/solve/simulate.h"
+
+namespace toile {
+
+struct StillCloth {
+  std::vector<double> mass;              ///< lumped [kg]
+  std::vector<Contact> contacts;         ///< without friction; those of the cloth with itself first, …
+  std::size_t cloth_contacts = 0;        ///< … so many of them
+  std::vector<double> contact_distance;  ///< per vertex, where cloth repels cloth [m]
+  Positions force;                       ///< of all but contacts, gravity included [N]
+  std::vector<TermEnergy> energies;
+};
+
+/// Of a sewn cloth at its positions, with the terms, options and body of a simulation. `start`: where its vertices were
+/// at the start of the drape, whose planes clamps hold (solve/clamps.h), where key frames leave them. What rubs as it
+/// bends counts as bent in one go from its rest shape.
+StillCloth still_cloth(const Cloth& cloth, const Positions& start, const SimulationScene& scene);
+
+}  // namespace toile

@@ -1,0 +1,56 @@
+#include "schemas/pointer.h"
+#include "schemas/scene_parts.h"
+
+#include <nlohmann/json.hpp>
+
+namespace toile {
+
+namespace {
+
+using nlohmann::json;
+
+/// Calls read(element, its pointer) for the list at `key`.
+template <typename Read>
+void for_each_element(const json& document, const char* key, const std::string& pointer, Read read) {
+  const auto found = document.find(key);
+  if (found == document.end()) return;
+  for (std::size_t k = 0; k < found->size(); ++k) read((*found)[k], child(child(pointer, key), k));
+}
+
+}  // namespace
+
+void read_trims(const json& document, const std::string& pointer, Garment& garment) {
+  for_each_element(document, "elastics", pointer, [&](const json& element, const std::string& here) {
+    Elastic elastic;
+    elastic.select = read_selection(element, garment, here);
+    elastic.length_factor = element.at("length_percent").get<double>() * 1e-2;
+    elastic.stiffness = element.value("stiffness_N", elastic.stiffness);
+    elastic.damping = element.value("damping_s", elastic.damping);
+    garment.elastics.push_back(std::move(elastic));
+  });
+  for_each_element(document, "drawcords", pointer, [&](const json& element, const std::string& here) {
+    Drawcord cord;
+    cord.select = read_selection(element, garment, here);
+    cord.length = element.at("length_mm").get<double>() * 1e-3;
+    cord.stiffness = element.value("stiffness_N", cord.stiffness);
+    cord.damping = element.value("damping_s", cord.damping);
+    garment.drawcords.push_back(std::move(cord));
+  });
+  for_each_element(document, "trims", pointer, [&](const json& element, const std::string&) {
+    Trim trim;
+    const json& button = element.at("button");
+    trim.button.diameter = button.value("diameter_mm", trim.button.diameter * 1e3) * 1e-3;
+    trim.button.thickness = button.value("thickness_mm", trim.button.thickness * 1e3) * 1e-3;
+    trim.button.mass = button.value("mass_g", trim.button.mass * 1e3) * 1e-3;
+    for (const json& hole : element.at("attach")) {
+      const json& at = hole.at("at_mm");
+      trim.holes.push_back(
+          {hole.at("panel").get<std::string>(), Vec2(at[0].get<double>() * 1e-3, at[1].get<double>() * 1e-3)});
+    }
+    trim.stiffness = element.value("stiffness_N_m", trim.stiffness);
+    trim.damping = element.value("damping_s", trim.damping);
+    garment.trims.push_back(std::move(trim));
+  });
+}
+
+}  // namespace toile

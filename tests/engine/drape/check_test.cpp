@@ -1,0 +1,188 @@
+// The judge of any mesh, on drapes of our own and on what is made of them.
+
+#include "engine/check.h"
+
+#include "engine/drape.h"
+#include "engine/mesh/build_cloth.h"
+#include "engine/mesh/gltf.h"
+#include "engine/mesh/obj.h"
+#include "engine/mesh/sewing.h"
+#include "engine/scene/problem.h"
+#include "tests/engine/drape/meshes.h"
+#include "tests/engine/solve/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace toile {
+namespace {
+
+using namespace test;
+
+Scene ball_scene() {
+  Scene scene;
+  scene.garments = {square_garment(0.2, 0.02, 0.105)};
+  scene.body = Body{SphereBody{Vec3::Zero(), 0.1}, 0.3};
+  return scene;
+}
+
+Scene skirt_scene() {
+  Scene scene = tube_scene(0.03);
+  Pattern skirt = tube_pattern(0.345, 0.12, 0.14, -0.06);
+  for (Panel& panel : skirt.panels) panel.edges[2].label = "lower_interface";
+  scene.garments[0].shape = skirt;
+  scene.garments[0].pins = {{PinLabel{"lower_interface"}, PinAttached{}}};
+  return scene;
+}
+
+Drape draped(const Scene& scene) {
+  CountingMonitor monitor;
+  return drape(scene, monitor);
+}
+
+double energy(const Report& report, const std::string& term) {
+  for (const TermEnergy& e : report.energies)
+    if (e.term == term) return e.energy;
+  ADD_FAILURE() << "no energy of " << term;
+  return 0;
+}
+
+void expect_same(const StretchStatistics& a, const StretchStatistics& b) {
+  for (double StretchStatistics::*member :
+       {&StretchStatistics::mean, &StretchStatistics::min, &StretchStatistics::p01, &StretchStatistics::median,
+        &StretchStatistics::p99, &StretchStatistics::max})
+    EXPECT_DOUBLE_EQ(a.*member, b.*member);
+}
+
+TEST(Judge, AgreesWithTheReportOfOurOwnDrape) {
+  for (const Scene& scene : {ball_scene(), skirt_scene()}) {
+    const Drape ours = draped(scene);
+    const Report &said = ours.report, judged = judge(scene, surface_mesh(ours.cloth));
+    EXPECT_EQ(judged.status, "converged");
+    EXPECT_EQ(judged.stop_reason, "checked");
+    EXPECT_EQ(judged.result_sha256, said.result_sha256);
+    EXPECT_EQ(judged.vertices, said.vertices);
+    expect_same(judged.stretch_warp, said.stretch_warp);
+    expect_same(judged.stretch_weft, said.stretch_weft);
+    expect_same(judged.stretch_bias, said.stretch_bias);
+    EXPECT_DOUBLE_EQ(judged.penetration_max, said.penetration_max);
+    EXPECT_EQ(judged.self_intersections, said.self_intersections);
+    EXPECT_DOUBLE_EQ(judged.discretisation_error, said.discretisation_error);
+    for (const char* term : {"membrane", "bending", "gravity", "contact"})
+      EXPECT_DOUBLE_EQ(energy(judged, term), energy(said, term)) << term;
+    // Forces that contacts might have can't leave more than those that they have.
+    EXPECT_LT(judged.residual_rms, 1.001 * said.residual_rms);
+    EXPECT_GT(judged.residual_rms, 0.1 * said.residual_rms);
+    if (scene.garments[0].pins.empty()) {  // the ball carries the sheet, pins the skirt
+      EXPECT_GT(energy(said, "friction"), 0);
+      EXPECT_GT(said.contacts.body_sticking, 0);
+      EXPECT_GT(judged.contacts.body, 0);
+      EXPECT_GT(judged.contacts.body_sticking, 0);
+    }
+  }
+}
+
+TEST(Judge, SeesThatAMeshIsNoEquilibrium) {
+  const Scene scene = ball_scene();
+  const Drape ours = draped(scene);
+  TriangleMesh shaken = surface_mesh(ours.cloth);
+  for (std::size_t v = 0; v < shaken.vertices.size(); ++v)
+    shaken.vertices[v] += 1e-4 * Vec3(std::sin(7.0 * static_cast<double>(v)), std::sin(11.0 * static_cast<double>(v)),
+                                      std::sin(13.0 * static_cast<double>(v)));
+  const Report of_shaken = judge(scene, shaken);
+  EXPECT_GT(of_shaken.residual_rms, 20 * ours.report.residual_rms);
+  EXPECT_EQ(of_shaken.status, "not_converged");
+
+  TriangleMesh lifted = surface_mesh(ours.cloth);
+  for (Vec3& p : lifted.vertices) p.y() += 0.02;
+  const Report of_lifted = judge(scene, lifted);
+  EXPECT_EQ(of_lifted.contacts.body, 0);
+  EXPECT_GT(of_lifted.residual_rms, 10 * ours.report.residual_rms) << "nothing carries it";
+  EXPECT_EQ(of_lifted.status, "not_converged");
+}
+
+/// As another program would leave it, farther from the body than our contact reaches.
+TEST(Judge, CountsClothAsTouchingFromWhereItIsTold) {
+  const Scene scene = ball_scene();
+  TriangleMesh higher = surface_mesh(draped(scene).cloth);
+  for (Vec3& p : higher.vertices) p.y() += 0.002;
+  EXPECT_GT(judge(scene, higher).residual_rms, 0.5);
+  const Report leaning = judge(scene, higher, {0.005});
+  EXPECT_LT(leaning.residual_rms, 0.15);
+  EXPECT_GT(leaning.contacts.body, 0);
+}
+
+TEST(Judge, TakesTheMeshAsWrittenToAFile) {
+  const Scene scene = skirt_scene();
+  const Drape ours = draped(scene);
+  const TriangleMesh mesh = surface_mesh(ours.cloth);
+  const Report of_obj = judge(scene, read_obj(write_obj(mesh)));
+  EXPECT_NEAR(of_obj.stretch_warp.max, ours.report.stretch_warp.max, 1e-6);
+  EXPECT_LT(of_obj.residual_rms, 2 * ours.report.residual_rms);
+  EXPECT_EQ(of_obj.seam_gap_max, 0);
+  const Report of_glb = judge(scene, read_glb(write_glb(mesh, &ours.body_mesh)));
+  EXPECT_EQ(of_glb.vertices, ours.report.vertices);
+  EXPECT_NEAR(of_glb.stretch_warp.max, ours.report.stretch_warp.max, 1e-4);
+}
+
+TEST(Judge, MeasuresTheSeamsOfAMeshThatIsNotSewn) {
+  const Scene scene = skirt_scene();
+  const Drape ours = draped(scene);
+  const Cloth apart = build_cloth(scene);
+  Cloth sewn = apart;
+  const std::vector<int> sewn_vertex = merge_seams(sewn);
+  TriangleMesh mesh = surface_mesh(apart);
+  for (std::size_t v = 0; v < sewn_vertex.size(); ++v) mesh.vertices[v] = ours.cloth.x[sewn_vertex[v]];
+  const Report closed = judge(scene, mesh);
+  EXPECT_EQ(closed.seam_gap_max, 0);
+  EXPECT_EQ(closed.result_sha256, ours.report.result_sha256);
+  EXPECT_EQ(closed.status, "converged");
+  mesh.vertices[apart.seam_pairs[0].a] += Vec3(0, 0.005, 0);
+  const Report open = judge(scene, mesh);
+  EXPECT_NEAR(open.seam_gap_max, 0.005, 1e-12);
+  EXPECT_EQ(open.status, "not_converged");
+}
+
+TEST(Judge, TakesAGarmentMeshInItsOwnOrder) {
+  Scene scene;
+  scene.body = cylinder_body();
+  scene.garments = {garment_of({}, 0.03)};
+  scene.garments[0].shape = tube_mesh(0.345, 0.12, 0.14, 12, 4);
+  TriangleMesh mesh = std::get<GarmentMesh>(scene.garments[0].shape).mesh;
+  mesh.corner_uv.clear();
+  std::swap(mesh.triangles.front(), mesh.triangles.back());
+  const Report report = judge(scene, mesh);
+  EXPECT_EQ(report.vertices, static_cast<long>(mesh.vertices.size()) - 10);
+  EXPECT_NEAR(report.stretch_warp.max, 0, 1e-2);
+  EXPECT_GT(report.seam_gap_max, 0.1) << "it is still flat";
+}
+
+TEST(Judge, RefusesAMeshOfAnotherGarment) {
+  const Scene scene = ball_scene();
+  TriangleMesh mesh = surface_mesh(build_cloth(scene));
+  const auto code = [&](const TriangleMesh& given) {
+    try {
+      judge(scene, given);
+    } catch (const InputError& error) {
+      return error.problems()[0].code;
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(code(mesh), "none");
+  TriangleMesh fewer = mesh;
+  fewer.vertices.pop_back();
+  fewer.triangles.clear();
+  fewer.corner_uv.clear();
+  EXPECT_EQ(code(fewer), "mesh_mismatch");
+  TriangleMesh other = mesh;
+  other.triangles[0] = {0, 1, static_cast<int>(mesh.vertices.size()) - 1};
+  other.corner_uv[0] = {Vec2(9, 9), Vec2(8, 7), Vec2(5, 3)};
+  EXPECT_EQ(code(other), "mesh_mismatch");
+  TriangleMesh far = mesh;
+  far.vertices[3] = Vec3(1e5, 0, 0);
+  EXPECT_EQ(code(far), "mesh_out_of_range");
+}
+
+}  // namespace
+}  // namespace toile
