@@ -19,9 +19,9 @@ inline double offset_from_body(const CollisionMesh& mesh, const BodyContactOptio
   return options.offset > 0 ? options.offset : mesh.body_offset[vertex];
 }
 
-/// Vertices nearer to the body than their offset; and midpoints of edges nearer than half of it (of the smaller one),
-/// so that the chord of a coarse triangle does not cut into a finger. gap is the distance field, linear about x.
-/// Parallel, in a fixed order.
+/// Vertices nearer to the body than their offset; and midpoints of edges and triangles nearer than half of it (of the
+/// smallest one), so that the chord of a coarse triangle does not cut into a finger or an armpit's fold. gap is the
+/// distance field, linear about x. Parallel, in a fixed order.
 std::vector<Contact> body_contacts(const CollisionMesh& mesh, const BodyField& body, const Positions& x,
                                    const BodyContactOptions& options);
 
