@@ -61,6 +61,19 @@ TEST(BodyContacts, EdgesKeepTheirMiddleOutOfWhatIsThinnerThanThem) {
   EXPECT_LT(contact_gap(contacts[0], sheet.cloth.x), contacts[0].distance);
 }
 
+TEST(BodyContacts, TrianglesKeepTheirMiddleOutOfWhatIsThinnerThanThem) {
+  // The ball touches the middle of a triangle; its vertices and the middles of its edges are out of reach.
+  const Sheet sheet(0);
+  const Triangle& triangle = sheet.mesh.triangles[40];
+  const Vec3 middle = (sheet.cloth.x[triangle[0]] + sheet.cloth.x[triangle[1]] + sheet.cloth.x[triangle[2]]) / 3;
+  const BodyField ball = make_body_field({SphereBody{middle - Vec3(0, 3e-3, 0), 2e-3}, 0.3}, kEdge);
+  const std::vector<Contact> contacts = body_contacts(sheet.mesh, ball, sheet.cloth.x, {3e-3, 0.3});
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_EQ(contacts[0].count, 3);
+  EXPECT_NEAR(contact_gap(contacts[0], sheet.cloth.x), 1e-3, 1e-9);
+  EXPECT_LT(contact_gap(contacts[0], sheet.cloth.x), contacts[0].distance);
+}
+
 TEST(BodyContacts, TheGapIsTheFieldLinearisedAboutX) {
   const BodyField ball = make_body_field({SphereBody{Vec3(0.07, -0.097, 0.06), 0.1}, 0.3}, kEdge);
   const Sheet sheet(4e-3);
@@ -78,9 +91,9 @@ TEST(BodyContacts, TheGapIsTheFieldLinearisedAboutX) {
 
 TEST(BodyContacts, KeysAreUniqueAndTheSameFromStepToStep) {
   const BodyField plane = make_body_field({PlaneBody{}, 0.3}, kEdge);
-  Sheet sheet(1e-3);  // vertices and edges
+  Sheet sheet(1e-3);  // vertices, edges and triangles
   const std::vector<Contact> before = body_contacts(sheet.mesh, plane, sheet.cloth.x, {3e-3, 0.3});
-  EXPECT_EQ(before.size(), sheet.cloth.x.size() + sheet.mesh.edges.size());
+  EXPECT_EQ(before.size(), sheet.cloth.x.size() + sheet.mesh.edges.size() + sheet.mesh.triangles.size());
   std::set<std::uint64_t> keys;
   for (const Contact& c : before) keys.insert(c.key);
   EXPECT_EQ(keys.size(), before.size());
