@@ -99,7 +99,8 @@ TEST_F(CommandLine, ChecksWhatItDrapedAndWhatItDidNot) {
   EXPECT_EQ(judged["stop_reason"], "checked");
   EXPECT_NEAR(judged["stretch_percent"]["bias"]["p99"], said["stretch_percent"]["bias"]["p99"].get<double>(), 1e-4);
   EXPECT_NEAR(judged["energy_j"]["bending"], said["energy_j"]["bending"].get<double>(), 1e-8);
-  EXPECT_LT(judged["force_residual"]["rms"], 2 * said["force_residual"]["rms"].get<double>());
+  // The file's last digit is a force of some thousandths of a vertex's weight.
+  EXPECT_LT(judged["force_residual"]["rms"], said["force_residual"]["rms"].get<double>() + 0.005);
 
   EXPECT_THAT(toile("check scene.json --mesh out/mesh.obj --unit-mm 900", &status), testing::HasSubstr("not at rest"));
   EXPECT_EQ(status, 3) << "a tenth smaller, it is squeezed";
