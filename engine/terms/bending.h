@@ -19,7 +19,8 @@ namespace toile {
 /// Dissipation potential [W]: R = ½ β θ̇ᵀ K θ̇, θ̇ = ∇θ·v [after Sánchez-Banderas & Otaduy 2018]. Velocity derivative:
 /// exact. Position derivative of the dissipative force: dropped (it is not symmetric, and of the order of the angles'
 /// change in a step relative to what is kept). Angles are those of the points, whatever the neighbours' winding, so a
-/// hinge is right where a stitch turns the fabric over (right_wrong).
+/// hinge is right where a stitch turns the fabric over (right_wrong). They are taken in [−π, π]: where a hinge turns
+/// through π, cloth through cloth, which contact does not let it, the energy jumps.
 struct BendingStencil {
   std::array<int, 6> nodes;  ///< the corners, then the tip across the edge opposite to each: where there is none, the
                              ///< corner itself, and `hinge` is false

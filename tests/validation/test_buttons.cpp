@@ -31,10 +31,14 @@ Scene hung_by_a_button() {
   return scene;
 }
 
+/// Where the pin is a clamp, its points lie between the cloth's nodes and the button's.
+class ButtonReference : public ::testing::TestWithParam<bool> {};
+
 }  // namespace
 
-TEST(ButtonReference, CarriesTheWeightOfWhatHangsByIt) {
-  const Scene scene = hung_by_a_button();
+TEST_P(ButtonReference, CarriesTheWeightOfWhatHangsByIt) {
+  Scene scene = hung_by_a_button();
+  scene.garments[0].pins[0].clamp = GetParam();
   CountingMonitor monitor;
   const Drape result = drape(scene, monitor);
   EXPECT_EQ(result.report.status, "converged");
@@ -58,10 +62,15 @@ TEST(ButtonReference, CarriesTheWeightOfWhatHangsByIt) {
             << " %\n";
   EXPECT_NEAR(on_layer[1].y(), hanging, 0.01 * hanging);
   EXPECT_NEAR(-on_layer[0].y(), hanging + button, 0.01 * (hanging + button));
+  EXPECT_EQ(result.contact_force.size(), result.cloth.x.size());
 }
 
-TEST(ButtonReference, SameBytesOnAnyNumberOfThreads) {
+INSTANTIATE_TEST_SUITE_P(Hold, ButtonReference, ::testing::Bool(),
+                         [](const auto& hold) { return hold.param ? "clamp" : "hinge"; });
+
+TEST(Buttons, SameBytesOnAnyNumberOfThreads) {
   Scene scene = hung_by_a_button();
+  scene.garments[0].pins[0].clamp = true;
   scene.garments[0].elastics = {{PinEdge{0, 0}, 0.8, 20, 0.02}};
   scene.garments[0].drawcords = {{PinEdge{1, 0}, 0.05, 200, 0.02}};
   scene.solver.simulated_time_limit = 0.15;

@@ -106,6 +106,8 @@ TEST(ConservationReference, EnergyNeverGrowsByMoreThanTheResidualsWork) {
   for (bool tight : {true, false}) {
     Fabric fabric = suiting();
     fabric.membrane_damping = fabric.bending_damping = 0;
+    // So stiff that no hinge is turned through 180°, where bending energy jumps and which here no contact prevents.
+    fabric.bending_stiffness = {5e-5, 5e-5, 5e-5};
     const Cloth sheet = equilateral_sheet(10, 11, 0.02, fabric);
     SolverOptions options = tight ? closed_system() : SolverOptions{};
     options.gravity = true;

@@ -36,6 +36,14 @@ Scene skirt_scene() {
   return scene;
 }
 
+/// A sheet that leaves a wall level, and sags.
+Scene shelf_scene() {
+  Scene scene;
+  scene.garments = {square_garment(0.1, 0.01, 0, isotropic_fabric(0.2, 1500, 200, 200, 5e-5))};
+  scene.garments[0].pins = {{PinEdge{0, 0}, PinFixed{}, true}};
+  return scene;
+}
+
 Drape draped(const Scene& scene) {
   CountingMonitor monitor;
   return drape(scene, monitor);
@@ -81,6 +89,28 @@ TEST(Judge, AgreesWithTheReportOfOurOwnDrape) {
       EXPECT_GT(judged.contacts.body_sticking, 0);
     }
   }
+}
+
+TEST(Judge, CountsWhatClampsHold) {
+  Scene scene = shelf_scene();
+  const Drape ours = draped(scene);
+  const TriangleMesh mesh = surface_mesh(ours.cloth);
+  const Report judged = judge(scene, mesh);
+  EXPECT_EQ(judged.status, "converged");
+  EXPECT_DOUBLE_EQ(energy(judged, "bending"), energy(ours.report, "bending"));
+  EXPECT_NEAR(judged.residual_rms, ours.report.residual_rms, 1e-3 * ours.report.residual_rms);
+  scene.garments[0].pins[0].clamp = false;
+  EXPECT_GT(judge(scene, mesh).residual_rms, 10 * judged.residual_rms) << "a hinge doesn't hold it";
+}
+
+TEST(Judge, SaysThatItLeavesOutTheFrictionOfBending) {
+  Scene scene = shelf_scene();
+  const TriangleMesh mesh = surface_mesh(draped(scene).cloth);
+  const Report elastic = judge(scene, mesh);
+  scene.garments[0].fabric.bending_hysteresis = {2e-4, 2e-4, 2e-4};
+  const Report judged = judge(scene, mesh);
+  EXPECT_EQ(judged.warnings.size(), elastic.warnings.size() + 1);
+  EXPECT_DOUBLE_EQ(judged.residual_rms, elastic.residual_rms);
 }
 
 TEST(Judge, SeesThatAMeshIsNoEquilibrium) {

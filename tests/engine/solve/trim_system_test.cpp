@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <memory>
 #include <numbers>
 
@@ -116,6 +117,10 @@ TEST(RigidTrim, HangsBelowItsSpringByWeightOverStiffness) {
   const Vec3 rim = end.center + end.orientation * Vec3(6e-3, 0, 0);
   const double extension = kButton.mass * kGravity / stiffness;
   EXPECT_NEAR(-rim.y(), extension, 1e-3 * extension);
+  std::map<std::string, double> stored;
+  for (const TermEnergy& e : trial.solver->energies_by_term(trial.state.x, trial.state.trims))
+    stored[e.term] = e.energy;
+  EXPECT_NEAR(stored.at("attachment"), 0.5 * stiffness * extension * extension, 2e-3 * stored.at("attachment"));
   EXPECT_LT(std::hypot(end.center.x(), end.center.z()), 1e-3 * 6e-3);  // the centre below the rim
   EXPECT_NEAR(end.center.y(), -extension - 6e-3, 1e-3 * 6e-3);
   const Positions net = trial.solver->static_forces(trial.state.x, {}, trial.state.trims);
