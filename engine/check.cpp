@@ -11,6 +11,7 @@
 #include "engine/scene/check.h"
 #include "engine/solve/still_cloth.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace toile {
@@ -28,6 +29,11 @@ std::vector<int> attached_vertices(const Scene& scene, const Cloth& sewn) {
       attached.insert(attached.end(), chosen.begin(), chosen.end());
     }
   return attached;
+}
+
+bool rubs_as_it_bends(const Fabric& fabric) {
+  const Directional& loop = fabric.bending_hysteresis;
+  return std::max({loop.warp, loop.weft, loop.bias}) > 0;
 }
 
 }  // namespace
@@ -92,6 +98,8 @@ Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& o
   const std::vector<double> contact_distance = measure_equilibrium(matched.cloth, at_start.x, still, options, report);
   measure_geometry(matched.cloth, still.body, report);
   add_warnings(matched.cloth, contact_distance, report);
+  if (std::any_of(apart.fabrics.begin(), apart.fabrics.end(), rubs_as_it_bends))
+    report.warnings.emplace_back("the friction of bending is not judged: a mesh does not say how it was bent before");
   const double at_rest = scene.solver.rest_residual > 0 ? scene.solver.rest_residual : kAtRest;
   const bool converged = report.residual_rms < at_rest && report.seam_gap_max < kClosedSeam;
   report.status = converged ? "converged" : "not_converged";

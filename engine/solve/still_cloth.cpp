@@ -9,10 +9,11 @@ namespace toile {
 
 namespace {
 
-/// The cloth with its clamps' points where they are at the end.
+/// The cloth with its clamps' points where they are at the end, its bending without friction.
 Cloth with_clamps(const Cloth& cloth, const Positions& start, const std::vector<HeldVertex>& held) {
   Cloth clamped = cloth;
   clamped.x = start;
+  for (Fabric& fabric : clamped.fabrics) fabric.bending_hysteresis = {};
   const std::vector<HeldVertex> points = add_clamps(clamped, held);
   std::copy(cloth.x.begin(), cloth.x.end(), clamped.x.begin());
   for (const HeldVertex& point : points) clamped.x[point.vertex] = position_at(point, last_key_frame(held));

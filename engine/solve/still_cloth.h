@@ -16,8 +16,8 @@ struct StillCloth {
 };
 
 /// Of a sewn cloth at its positions, with the terms, options and body of a simulation. `start`: where its vertices were
-/// at the start of the drape, whose planes clamps hold (solve/clamps.h), where key frames leave them. What rubs as it
-/// bends counts as bent in one go from its rest shape.
+/// at the start of the drape, whose planes clamps hold (solve/clamps.h), where key frames leave them. The friction of
+/// bending is left out: positions do not tell how the cloth was bent before.
 StillCloth still_cloth(const Cloth& cloth, const Positions& start, const SimulationScene& scene);
 
 }  // namespace toile

@@ -103,6 +103,16 @@ TEST(Judge, CountsWhatClampsHold) {
   EXPECT_GT(judge(scene, mesh).residual_rms, 10 * judged.residual_rms) << "a hinge doesn't hold it";
 }
 
+TEST(Judge, SaysThatItLeavesOutTheFrictionOfBending) {
+  Scene scene = shelf_scene();
+  const TriangleMesh mesh = surface_mesh(draped(scene).cloth);
+  const Report elastic = judge(scene, mesh);
+  scene.garments[0].fabric.bending_hysteresis = {2e-4, 2e-4, 2e-4};
+  const Report judged = judge(scene, mesh);
+  EXPECT_EQ(judged.warnings.size(), elastic.warnings.size() + 1);
+  EXPECT_DOUBLE_EQ(judged.residual_rms, elastic.residual_rms);
+}
+
 TEST(Judge, SeesThatAMeshIsNoEquilibrium) {
   const Scene scene = ball_scene();
   const Drape ours = draped(scene);

@@ -9,11 +9,26 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 
 namespace toile {
 
 using namespace std::chrono_literals;
+
+namespace {
+
+/// A socket with a timeout is interrupted where a child ends, though nothing handles SIGCHLD: posix_spawn in another
+/// thread blocks it for a moment, and what is blocked counts as not ignored.
+template <typename Call>
+ssize_t uninterrupted(const Call& call) {
+  ssize_t result;
+  do result = call();
+  while (result < 0 && errno == EINTR);
+  return result;
+}
+
+}  // namespace
 
 std::string Answer::header(const std::string& name) const {
   const std::size_t start = head.find("\r\n" + name + ": ");
@@ -54,19 +69,21 @@ Answer ServiceFixture::raw(const std::string& bytes) const {
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<std::uint16_t>(port_));
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  const timeval patience{60, 0};  // a machine may be busy; that the server hangs up, the tests see sooner
+  const timeval patience{5, 0};
   setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   setsockopt(connection, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
   std::string text;
   if (connect(connection, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
     std::size_t sent = 0;
     while (sent < bytes.size()) {
-      const ssize_t count = send(connection, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+      const ssize_t count =
+          uninterrupted([&] { return send(connection, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL); });
       if (count <= 0) break;
       sent += static_cast<std::size_t>(count);
     }
     std::array<char, 65536> buffer;
-    for (ssize_t count; (count = recv(connection, buffer.data(), buffer.size(), 0)) > 0;) {
+    const auto receive = [&] { return recv(connection, buffer.data(), buffer.size(), 0); };
+    for (ssize_t count; (count = uninterrupted(receive)) > 0;) {
       text.append(buffer.data(), static_cast<std::size_t>(count));
     }
   }
