@@ -1,6 +1,9 @@
 #pragma once
 // What a drape is worth: the numbers of schemas/report.schema.json, in SI units and fractions.
 
+#include "engine/experiment_report.h"
+
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +51,7 @@ struct Report {
   double compressed_share = 0;      ///< of the rest area, squeezed farther than StVK reaches
   std::string result_sha256;        ///< of the final positions' bytes
   std::vector<std::string> warnings;
+  std::optional<ExperimentReport> experiment;  ///< where the run was one
 };
 
 }  // namespace toile

@@ -103,6 +103,10 @@ void check_garment(const json& garment, const std::string& pointer, std::vector<
 }  // namespace
 
 void validate_scene_document(const json& document, FileReferences files) {
+  if (is_experiment(document)) {
+    read_experiment(document);
+    return;
+  }
   validate_document("scene.schema.json", document);
   std::vector<Problem> problems;
   const json& garments = document.at("garments");
@@ -118,6 +122,7 @@ void validate_scene_document(const json& document, FileReferences files) {
 }
 
 std::vector<std::string> asset_references(const json& document) {
+  if (is_experiment(document)) return {};
   std::set<std::string> assets;
   for_each_reference(document, [&](const json& reference, const std::string&) {
     if (reference.contains("asset")) assets.insert(reference["asset"].get<std::string>());
@@ -126,8 +131,16 @@ std::vector<std::string> asset_references(const json& document) {
 }
 
 Job read_scene(const json& document, const Resolver& resolve) {
-  validate_scene_document(document);
   Job job;
+  if (is_experiment(document)) {
+    job.experiment = read_experiment(document);
+    const bool disc = std::holds_alternative<CusickDrape>(*job.experiment);
+    job.render = read_render(document.value("render", json::object()));
+    if (!document.contains("render") || !document["render"].contains("views"))
+      job.render.views = {disc ? "top" : "front", disc ? "three-quarter" : "top"};
+    return job;
+  }
+  validate_scene_document(document);
   const json& garments = document.at("garments");
   const bool on_body = document.contains("body");
   for (std::size_t g = 0; g < garments.size(); ++g) {

@@ -1,5 +1,7 @@
 #include "schemas/write_report.h"
 
+#include "schemas/write_experiment.h"
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -81,6 +83,7 @@ json write_report(const Report& report) {
                    {"result_sha256", report.result_sha256},
                    {"warnings", report.warnings},
                    {"version", TOILE_VERSION}};
+  if (report.experiment) document["experiment"] = write_experiment(*report.experiment);
   require_finite(document);
   return document;
 }

@@ -12,10 +12,12 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
 
   toile::DrapeArguments drape;
-  CLI::App* drape_command = app.add_subcommand("drape",
-                                               "Drapes one scene. Exit status: 0 done, 2 bad input (the problem on "
-                                               "stderr), 3 not converged (report and mesh are "
-                                               "written), 4 cancelled.");
+  CLI::App* drape_command =
+      app.add_subcommand("drape",
+                         "Drapes one scene, or does one experiment of a fabric laboratory ({\"experiment\": "
+                         "{…}}). Exit status: 0 done, 2 bad input (the problem on "
+                         "stderr), 3 not converged (report and mesh are "
+                         "written), 4 cancelled.");
   drape_command->add_option("scene", drape.scene, "The scene, JSON; its files are relative to it")->required();
   drape_command->add_option("--out", drape.out, "Folder for report.json, mesh.obj, mesh.glb and previews")->required();
   drape_command->add_option("--progress-fd", drape.progress_fd, "Write progress as JSON lines to this descriptor")

@@ -24,6 +24,8 @@ int run_check(const CheckArguments& arguments) {
   try {
     const auto started = std::chrono::steady_clock::now();
     const Job job = read_job(arguments.scene);
+    if (job.experiment)
+      throw InputError("/experiment", "not_a_scene", "An experiment has no garments whose drape could be judged.");
     const TriangleMesh mesh = read_mesh_bytes(read_input_file(arguments.mesh, kMeshFileLimit), "",
                                               1e-3 * arguments.unit_mm, arguments.up == "z" ? UpAxis::z : UpAxis::y);
     Report report = judge(job.scene, mesh, {1e-3 * arguments.touch_mm});

@@ -1,5 +1,6 @@
 #include "engine/drape.h"
 
+#include "engine/experiments/run.h"
 #include "engine/mesh/build_cloth.h"
 #include "engine/mesh/gltf.h"
 #include "engine/mesh/obj.h"
@@ -61,7 +62,8 @@ int drape_to_files(const DrapeArguments& arguments, RunMonitor& monitor) {
 
   Job job = read_job(arguments.scene);
   if (arguments.threads > 0) job.scene.solver.threads = arguments.threads;
-  Drape result = drape(job.scene, monitor);
+  Drape result =
+      job.experiment ? run_experiment(*job.experiment, arguments.threads, monitor) : drape(job.scene, monitor);
   Report& report = result.report;
   report.warnings.insert(report.warnings.begin(), job.warnings.begin(), job.warnings.end());
   const bool converged = report.status == "converged";

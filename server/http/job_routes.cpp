@@ -40,7 +40,7 @@ std::string pointer_to_asset(const json& node, const std::string& name, const st
   return {};
 }
 
-/// Parses {"scene": {…}}; pointers of what the parser throws are made to point into the scene.
+/// Parses {"scene": {…}} or {"experiment": {…}}; pointers of what the parser throws are made to point into the scene.
 json parse_request(const std::string& body) {
   try {
     return parse_json(body, {.bytes = kSceneLimit, .depth = JsonLimits{}.depth + 1});
@@ -55,12 +55,16 @@ json parse_request(const std::string& body) {
   }
 }
 
-/// The scene of {"scene": {…}}, checked as far as it can be without another document. Throws InputError with pointers
-/// into the scene, as a run's problems have them.
+/// The scene of {"scene": {…}}, checked as far as it can be without another document, or an experiment's document as it
+/// is. Throws InputError with pointers into the scene, as a run's problems have them.
 json checked_scene(const std::string& body, Store& store) {
   json document = parse_request(body);
+  if (is_experiment(document)) {
+    validate_scene_document(document, FileReferences::refused);
+    return document;
+  }
   if (!document.is_object() || !document.contains("scene")) {
-    throw InputError("", "missing_key", "The body must be an object with the key \"scene\".");
+    throw InputError("", "missing_key", "The body must be an object with the key \"scene\" or \"experiment\".");
   }
   for (const auto& [key, value] : document.items()) {
     if (key != "scene")

@@ -34,7 +34,7 @@ class ValidExamples : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(ValidExamples, AreRead) {
   const Job job = read_file(kExamples / "valid" / (GetParam() + ".json"));
-  EXPECT_FALSE(job.scene.garments.empty());
+  EXPECT_EQ(job.scene.garments.empty(), job.experiment.has_value()) << "a scene or an experiment";
   EXPECT_FALSE(job.render.views.empty());
 }
 
