@@ -25,8 +25,8 @@ struct SolverOptions {
   double body_offset = 0;               ///< cloth's mid-surface to body [m]; 0: from thickness and edge length
   double rest_kinetic_energy = 1e-8;    ///< early stop: 99th percentile of nodal kinetic energy under this [J] …
   double rest_window = 0.1;             ///< … throughout this window [s]
-  double rest_residual = 0.05;         ///< … and the rms net force on free vertices under this share of nodal weight;
-                                       ///< 0: not asked (the seed as written, which takes slow falling for rest)
+  double rest_residual = 0.05;  ///< … and the rms net force on free vertices under this share of nodal weight;
+                                ///< 0: not asked (the seed as written, which takes slow falling for rest)
   bool early_stop = true;
   bool gravity = true;
   int threads = 0;  ///< 0: all. The result does not depend on it.
