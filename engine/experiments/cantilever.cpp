@@ -14,7 +14,7 @@ constexpr double kPeirceAngle = 41.5 * std::numbers::pi / 180;     // [rad]
 constexpr double kAngleTolerance = 0.05 * std::numbers::pi / 180;  // [rad]
 constexpr int kMostTrials = 8;
 constexpr double kShortest = 2e-3, kLongest = 1;  // overhang [m]
-constexpr double kCells = 20;                     // edges along the overhang
+constexpr double kCells = 12;                     // edges along the overhang
 
 double along(const Directional& d, Direction direction) {
   return direction == Direction::warp ? d.warp : direction == Direction::weft ? d.weft : d.bias;

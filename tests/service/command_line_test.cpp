@@ -57,6 +57,22 @@ TEST_F(CommandLine, WritesEveryResult) {
   EXPECT_GT(fs::file_size(folder_ / "top.png"), 0U);
 }
 
+TEST_F(CommandLine, DoesAnExperimentAndReportsWhatItMeasured) {
+  std::ofstream(folder_ / "pull.json")
+      << R"({"experiment":{"kind":"uniaxial","fabric":"denim","strains_percent":[1,2],"edge_length_mm":10},)"
+      << R"("render":{"size_px":[64,48]}})";
+  int status = -1;
+  const std::string table = toile("drape pull.json --out out", &status);
+  EXPECT_EQ(status, 0) << table;
+  const json curve = report()["experiment"]["curve"];
+  ASSERT_EQ(curve.size(), 2U);
+  EXPECT_GT(curve[1]["force_N_m"].get<double>(), 1.9 * curve[0]["force_N_m"].get<double>());
+  EXPECT_GT(fs::file_size(folder_ / "out/preview-top.png"), 0U);
+  EXPECT_GT(fs::file_size(folder_ / "out/mesh.obj"), 0U);
+  EXPECT_THAT(toile("check pull.json --mesh out/mesh.obj", &status), testing::HasSubstr("not_a_scene"));
+  EXPECT_EQ(status, 2);
+}
+
 TEST_F(CommandLine, TheNumberOfThreadsDoesNotChangeTheResult) {
   int status = -1;
   const std::string file = scene("standard", R"(,"solver":{"simulated_time_limit_s":0.05})");

@@ -46,6 +46,22 @@ TEST_F(ServiceTest, TakesAJobFromSubmissionToResults) {
   EXPECT_EQ(mesh.header("Content-Type"), "model/obj");
 }
 
+TEST_F(ServiceTest, TakesAnExperimentInPlaceOfAScene) {
+  const std::string experiment = R"("experiment":{"kind":"pear_loop","fabric":"denim"})";
+  const Answer submitted = request("POST", "/v1/jobs", "{" + experiment + "}", kJson);
+  ASSERT_EQ(submitted.status, 202) << submitted.body;
+  EXPECT_NO_THROW(validate_document("job.schema.json", submitted.json()));
+
+  const Answer wrong =
+      request("POST", "/v1/jobs", R"({"experiment":{"kind":"pear_loop","fabric":"denim","disc_mm":300}})", kJson);
+  EXPECT_EQ(wrong.status, 422);
+  EXPECT_EQ(wrong.json()["errors"][0]["pointer"], "/experiment/disc_mm");
+  EXPECT_EQ(wrong.json()["errors"][0]["code"], "key_not_of_kind");
+  const Answer both = request("POST", "/v1/jobs", R"({"scene":)" + scene_named("fine") + "," + experiment + "}", kJson);
+  EXPECT_EQ(both.status, 422);
+  EXPECT_EQ(both.json()["errors"][0]["pointer"], "/scene");
+}
+
 TEST_F(ServiceTest, AnImmutableResultIsNotSentTwice) {
   const std::string id = submit("fine").json()["id"];
   wait_for_end(id);
