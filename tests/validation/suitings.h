@@ -43,9 +43,8 @@ inline std::vector<Suiting> measured_suitings() {
 
 /// Bending rigidity by KES-FB2 is the slope of the moment between curvatures of 0.5 and 1.5 per cm.
 inline constexpr double kKesCurvature = 100;  ///< middle of those [1/m]
-/// 2HB over B of men's suitings: 10^(−1.2065 + 0.8673) per cm, from the population means of log 2HB and log B
-/// (Kawabata, The Standardization and Analysis of Hand Evaluation, 1980; winter suitings; summer suitings have the same
-/// ratio).
+/// 2HB over B, about 0.46 per cm: typical of men's suitings by KES (after Kawabata, The Standardization and Analysis of
+/// Hand Evaluation, 1980, whose print was not at hand to check it). It was not measured on these cloths.
 inline constexpr double kHysteresisOverRigidity = 45.8;  ///< [1/m]
 
 /// The same cloth as it softens and rubs: −K2/K1 is the median of the 618 fabrics, direction by direction; K1 is such
