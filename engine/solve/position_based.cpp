@@ -177,7 +177,10 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
     const double length = move.norm();
     if (length > 2 * limit) x[v] = start[v] + move * (2 * limit / length);
   }
-  proximity_.limit_moves(start, x);
+  if (options.slide)
+    proximity_.limit_moves(start, x);
+  else
+    limit_displacements(start, proximity_.displacement_bounds(), x);
   for (int v = 0; v < n; ++v) {
     carried_[v] = x[v] - start[v];
     largest_move_ = std::max(largest_move_, carried_[v].norm());

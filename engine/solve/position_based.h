@@ -23,6 +23,7 @@ struct PositionBasedOptions {
   double bending = 0.1;       ///< share of a bend's correction taken per iteration
   int iterations = 8;         ///< sweeps over all constraints per step
   double body_offset = 3e-3;  ///< cloth stays this far off the body [m]
+  bool slide = true;          ///< pressed layers may slide and part (Proximity::limit_moves); false: within bounds only
   Vec3 fall = Vec3::Zero();   ///< added to every free vertex's movement per step [m]: gravity
 };
 

@@ -24,8 +24,14 @@ struct Manner {
   double closing;  // of a gap per step [m]
   double carry;    // damped inertia
   SeamZone zone;   // where the two sides of a seam pass through each other
+  bool slide;      // layers that are pressed together
 };
-constexpr Manner kManners[] = {{6e-3, 0.6, {2, false}}, {3e-3, 0.85, {3, false}}, {6e-3, 0.85, {4, false}}};
+constexpr Manner kManners[] = {
+    {6e-3, 0.6, {2, false}, true},
+    {6e-3, 0.6, {2, false}, false},
+    {3e-3, 0.85, {3, false}, true},
+    {6e-3, 0.85, {4, false}, true},
+};
 constexpr SeamZone kWideZone{6, true, kReportedGap};  // where seams stay open
 
 /// A tailor's order: first darts, pleats and what else joins a panel to itself, then the seams that make tubes of each
@@ -55,6 +61,7 @@ void close_seams(AssemblyStage& stage, PositionBased& solver, Cloth& cloth, int 
   options.body_offset = offset;
   options.closing = manner.closing;
   options.carry = manner.carry;
+  options.slide = manner.slide;
   double gap = 0;
   for (const std::vector<SeamPull>& pulls : seams_in_order(cloth, garment, part)) {
     solver.set_pulls(pulls);
