@@ -56,11 +56,6 @@ std::uint64_t key_of(const Contact& contact) {
 
 constexpr int kSweeps = 4;  // of taking off a move what goes against planes, before it is scaled
 
-struct Measured {
-  double distance = 0;
-  Contact contact;
-};
-
 }  // namespace
 
 Proximity::Proximity(CollisionMesh mesh, double list_radius) : mesh_(std::move(mesh)) {
@@ -88,11 +83,36 @@ bool Proximity::belong_together(const int* a, int na, const int* b, int nb) cons
   return false;
 }
 
-Proximity::Plane Proximity::plane_between(const Contact& pair, double distance, int first_side, const Positions& x) {
-  // The nearest points of convex features: each feature lies wholly behind its own.
-  Vec3 nearest = Vec3::Zero();
-  for (int k = 0; k < first_side; ++k) nearest += pair.weights[k] * x[pair.nodes[k]];
-  return {pair.nodes, first_side, pair.normal, pair.normal.dot(nearest) - 0.5 * distance};
+std::array<int, 4> Proximity::nodes_of(int pair) const {
+  const int vt = static_cast<int>(vertex_triangle_.size());
+  if (pair < vt) {
+    const auto& [v, t] = vertex_triangle_[pair];
+    return {v, mesh_.triangles[t][0], mesh_.triangles[t][1], mesh_.triangles[t][2]};
+  }
+  const auto& [e, f] = edge_edge_[pair - vt];
+  return {mesh_.edges[e][0], mesh_.edges[e][1], mesh_.edges[f][0], mesh_.edges[f][1]};
+}
+
+Proximity::Measured Proximity::measure(int pair, const Positions& x) const {
+  Measured measured;
+  Contact& c = measured.contact;
+  c.count = 4;
+  c.nodes = nodes_of(pair);
+  const auto& [a, b, d, e] = c.nodes;
+  if (pair < static_cast<int>(vertex_triangle_.size())) {
+    const auto closest = point_triangle(x[a], x[b], x[d], x[e]);
+    c.weights = {1, -closest.weights[0], -closest.weights[1], -closest.weights[2]};
+  } else {
+    measured.first_side = 2;
+    const auto closest = segment_segment(x[a], x[b], x[d], x[e]);
+    c.weights = {1 - closest.s, closest.s, closest.t - 1, -closest.t};
+  }
+  Vec3 p = Vec3::Zero();
+  for (int k = 0; k < 4; ++k) p += c.weights[k] * x[c.nodes[k]];
+  measured.distance = p.norm();
+  if (measured.distance > 0) c.normal = p / measured.distance;
+  c.anchor = p;
+  return measured;
 }
 
 void Proximity::rebuild_list(const Positions& x) {
@@ -157,43 +177,24 @@ void Proximity::update(const Positions& x) {
   std::vector<Measured> measured(total);
   tbb::parallel_for(tbb::blocked_range<int>(0, total, kBlock), [&](const tbb::blocked_range<int>& range) {
     for (int i = range.begin(); i < range.end(); ++i) {
+      measured[i] = measure(i, x);
       Contact& c = measured[i].contact;
-      c.count = 4;
-      if (i < vt) {
-        const Pair& pair = vertex_triangle_[i];
-        const Triangle& tri = mesh_.triangles[pair.b];
-        const auto closest = point_triangle(x[pair.a], x[tri[0]], x[tri[1]], x[tri[2]]);
-        c.nodes = {pair.a, tri[0], tri[1], tri[2]};
-        c.weights = {1, -closest.weights[0], -closest.weights[1], -closest.weights[2]};
-      } else {
-        const Pair& pair = edge_edge_[i - vt];
-        const auto &first = mesh_.edges[pair.a], &second = mesh_.edges[pair.b];
-        const auto closest = segment_segment(x[first[0]], x[first[1]], x[second[0]], x[second[1]]);
-        c.nodes = {first[0], first[1], second[0], second[1]};
-        c.weights = {1 - closest.s, closest.s, closest.t - 1, -closest.t};
-      }
-      Vec3 p = Vec3::Zero();
-      for (int k = 0; k < 4; ++k) p += c.weights[k] * x[c.nodes[k]];
-      measured[i].distance = p.norm();
-      if (measured[i].distance > 0) c.normal = p / measured[i].distance;
-      c.anchor = p;
-      const std::span<const int> nodes(c.nodes), a = nodes.first(i < vt ? 1 : 2), b = nodes.last(i < vt ? 3 : 2);
-      c.distance = mesh_.pair_distance(a, b);
-      c.friction = mesh_.pair_friction(a, b);
+      const std::span<const int> nodes(c.nodes), first = nodes.first(measured[i].first_side),
+                                                 second = nodes.subspan(measured[i].first_side);
+      c.distance = mesh_.pair_distance(first, second);
+      c.friction = mesh_.pair_friction(first, second);
     }
   });
 
   bounds_.assign(x.size(), unlisted_);
   smallest_distance_ = unlisted_;
   contacts_.clear();
-  planes_.clear();
   std::unordered_set<std::uint64_t> seen;
   for (int i = 0; i < total; ++i) {
     Contact& c = measured[i].contact;
     const double d = measured[i].distance;
     for (int k = 0; k < 4; ++k) bounds_[c.nodes[k]] = std::min(bounds_[c.nodes[k]], d);
     smallest_distance_ = std::min(smallest_distance_, d);
-    planes_.push_back(plane_between(c, d, i < vt ? 1 : 2, x));
     if (d >= c.distance || d <= 0) continue;
     // An edge pair whose nearest points include an end is a vertex–triangle pair too.
     const bool interior = i < vt || (c.weights[0] > kFeatureTolerance && c.weights[1] > kFeatureTolerance &&
@@ -206,31 +207,52 @@ void Proximity::update(const Positions& x) {
 }
 
 long Proximity::limit_moves(const Positions& x, Positions& to) const {
+  std::vector<char> beyond(x.size(), 0);  // its bound: whatever stays within can't cross anything
+  bool any = false;
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    beyond[v] = (to[v] - x[v]).norm() > bounds_[v];
+    any = any || beyond[v];
+  }
+  if (!any) return 0;
+
   struct HalfSpace {
+    int vertex;
     Vec3 inward;
     double slack;  // that may be used up against it [m]
   };
   const double free = kBoundFraction * std::max(0.0, unlisted_ - kRoundOff);
-  const auto each = [&](auto&& visit) {
-    for (const Plane& plane : planes_)
-      for (int k = 0; k < 4; ++k) {
-        const Vec3 inward = k < plane.count ? plane.normal : Vec3(-plane.normal);
-        const double height = std::abs(plane.normal.dot(x[plane.nodes[k]]) - plane.offset);
-        const double slack = 2 * kBoundFraction * std::max(0.0, height - 0.5 * kRoundOff);
-        if (slack < free) visit(plane.nodes[k], HalfSpace{inward, slack});
-      }
-  };
+  std::vector<HalfSpace> found;
+  std::vector<char> stuck(x.size(), 0);
+  const int total = static_cast<int>(vertex_triangle_.size() + edge_edge_.size());
+  for (int i = 0; i < total; ++i) {
+    const std::array<int, 4> nodes = nodes_of(i);
+    if (std::none_of(nodes.begin(), nodes.end(), [&](int v) { return beyond[v] != 0; })) continue;
+    const Measured pair = measure(i, x);
+    const Vec3& normal = pair.contact.normal;
+    // The nearest points of convex features: each feature lies wholly behind its own.
+    Vec3 nearest = Vec3::Zero();
+    for (int k = 0; k < pair.first_side; ++k) nearest += pair.contact.weights[k] * x[nodes[k]];
+    const double offset = normal.dot(nearest) - 0.5 * pair.distance;
+    for (int k = 0; k < 4; ++k) {
+      if (!beyond[nodes[k]]) continue;
+      if (pair.distance <= 0) stuck[nodes[k]] = 1;  // no plane lies between what touches
+      const double height = std::abs(normal.dot(x[nodes[k]]) - offset);
+      const double slack = 2 * kBoundFraction * std::max(0.0, height - 0.5 * kRoundOff);
+      if (slack < free) found.push_back({nodes[k], k < pair.first_side ? normal : Vec3(-normal), slack});
+    }
+  }
   std::vector<int> first(x.size() + 1, 0);
-  each([&](int v, const HalfSpace&) { ++first[v + 1]; });
+  for (const HalfSpace& limit : found) ++first[limit.vertex + 1];
   for (std::size_t v = 0; v < x.size(); ++v) first[v + 1] += first[v];
-  std::vector<HalfSpace> half_spaces(first.back());
+  std::vector<HalfSpace> half_spaces(found.size());
   std::vector<int> next(first.begin(), first.end() - 1);
-  each([&](int v, const HalfSpace& half_space) { half_spaces[next[v]++] = half_space; });
+  for (const HalfSpace& limit : found) half_spaces[next[limit.vertex]++] = limit;
 
   std::vector<char> shortened(x.size(), 0);
   tbb::parallel_for(
       tbb::blocked_range<int>(0, static_cast<int>(x.size()), kBlock), [&](const tbb::blocked_range<int>& range) {
         for (int v = range.begin(); v < range.end(); ++v) {
+          if (!beyond[v]) continue;
           const std::span<const HalfSpace> limits(half_spaces.data() + first[v], half_spaces.data() + first[v + 1]);
           Vec3 move = to[v] - x[v];
           const double length = move.norm();
@@ -240,7 +262,7 @@ long Proximity::limit_moves(const Positions& x, Positions& to) const {
               const double over = -limit.slack - limit.inward.dot(move);
               if (over > 0) move += over * limit.inward;
             }
-          double share = 1;
+          double share = stuck[v] ? 0 : 1;
           for (const HalfSpace& limit : limits) {
             const double towards = -limit.inward.dot(move);
             if (towards > limit.slack) share = std::min(share, limit.slack / towards);

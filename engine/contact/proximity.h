@@ -48,14 +48,15 @@ class Proximity {
   struct Pair {
     int a, b;  // vertex and triangle, or two edges
   };
-  /// The plane n·p = offset between the two sides of a pair; the first `count` nodes lie above it.
-  struct Plane {
-    std::array<int, 4> nodes;
-    int count;
-    Vec3 normal;
-    double offset;
+  /// The nearest points of a listed pair: p(x) between them, its length, and how many of the nodes are the first
+  /// side's.
+  struct Measured {
+    double distance = 0;
+    int first_side = 1;
+    Contact contact;
   };
-  static Plane plane_between(const Contact& pair, double distance, int first_side, const Positions& x);
+  std::array<int, 4> nodes_of(int pair) const;
+  Measured measure(int pair, const Positions& x) const;
   void rebuild_list(const Positions& x);
   bool belong_together(const int* a, int na, const int* b, int nb) const;
 
@@ -66,7 +67,6 @@ class Proximity {
   std::vector<Pair> vertex_triangle_, edge_edge_;
   std::vector<Contact> contacts_;
   std::vector<double> bounds_;
-  std::vector<Plane> planes_;
   double unlisted_ = 0;  ///< distance of what is not in the lists, at least [m]
   double smallest_distance_ = 0;
 };

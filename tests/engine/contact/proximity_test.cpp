@@ -141,6 +141,19 @@ TEST(Proximity, PressedLayersStillSlideAndPart) {
   EXPECT_GT(limit_displacements(cloth.x, proximity.displacement_bounds(), to), 0);  // the bounds forbid it
 }
 
+TEST(Proximity, WhatTouchesExactlyStaysWhereItIs) {
+  Cloth cloth;
+  add_sheet(cloth, 4, 4, 0.015, 0);
+  add_sheet(cloth, 4, 4, 0.015, 0, 0.004);
+  Proximity proximity(make_collision_mesh(cloth, 0), 0.008);
+  proximity.update(cloth.x);
+  Positions to = cloth.x;
+  const std::size_t inner = 16 + 5;  // lies in a triangle of the other sheet
+  to[inner].y() -= 1e-3;
+  EXPECT_EQ(proximity.limit_moves(cloth.x, to), 1);
+  EXPECT_EQ(to[inner], cloth.x[inner]);
+}
+
 TEST(Proximity, KeepsKeysFromStepToStep) {
   Cloth cloth;
   add_sheet(cloth, 6, 6, 0.015, 0);
