@@ -97,6 +97,7 @@ Proximity::Measured Proximity::measure(int pair, const Positions& x) const {
   Measured measured;
   Contact& c = measured.contact;
   c.count = 4;
+  c.between_layers = true;
   c.nodes = nodes_of(pair);
   const auto& [a, b, d, e] = c.nodes;
   if (pair < static_cast<int>(vertex_triangle_.size())) {

@@ -9,18 +9,34 @@ namespace toile {
 
 namespace {
 
+constexpr double kLogarithmBelow = 0.5;  // of the distance; elsewhere the stiffness would jump
+constexpr double kLinearBelow = 1e-3;    // of the distance
+
+struct Repulsion {
+  double energy = 0, push = 0, stiffness = 0;  // [J], [N] along the normal (negative where it pulls), [N/m]
+};
+
+Repulsion repulsion(const Contact& c, double k, double gap) {
+  const double depth = c.distance - gap, turn = kLogarithmBelow * c.distance;
+  if (depth <= 0 && !c.bilateral) return {};
+  if (!c.between_layers || gap >= turn) return {0.5 * k * depth * depth, k * depth, k};
+  const double least = kLinearBelow * c.distance, at = std::max(gap, least), below = at - gap;
+  const double scale = k * turn * turn, push = scale / at, slope = push / at;
+  return {scale * (0.5 - std::log(at / turn)) + push * below + 0.5 * slope * below * below, push + slope * below,
+          slope};
+}
+
 struct Split {
+  Repulsion repulsion;
   double normal_force;        ///< N
-  double push;                ///< N along the normal, negative where a bilateral contact pulls
   Vec3 slip;                  ///< u
   double slip_length, limit;  ///< |u| and μN/k [m]
 };
 
 Split split(const Contact& c, double stiffness, const Vec3& p) {
   Split s;
-  s.push = stiffness * (c.distance - (c.normal.dot(p) - c.offset));
-  if (!c.bilateral) s.push = std::max(0.0, s.push);
-  s.normal_force = std::abs(s.push);
+  s.repulsion = repulsion(c, stiffness, c.normal.dot(p) - c.offset);
+  s.normal_force = std::abs(s.repulsion.push);
   const Vec3 off = p - c.anchor;
   s.slip = off - c.normal.dot(off) * c.normal;
   s.slip_length = s.slip.norm();
@@ -41,8 +57,7 @@ double contact_gap(const Contact& c, const Positions& x) { return c.normal.dot(c
 double contact_energy(const Contact& c, double stiffness, const Vec3& p) {
   const Split s = split(c, stiffness, p);
   const double held = std::min(s.slip_length, s.limit);
-  return 0.5 * s.normal_force * s.normal_force / stiffness + 0.5 * stiffness * held * held +
-         stiffness * s.limit * (s.slip_length - held);
+  return s.repulsion.energy + 0.5 * stiffness * held * held + stiffness * s.limit * (s.slip_length - held);
 }
 
 ContactResponse contact_response(const Contact& c, double stiffness, const Vec3& p) {
@@ -50,9 +65,9 @@ ContactResponse contact_response(const Contact& c, double stiffness, const Vec3&
   const Split s = split(c, stiffness, p);
   r.normal_force = s.normal_force;
   if (!(s.normal_force > 0)) return r;
-  r.force = s.push * c.normal;
+  r.force = s.repulsion.push * c.normal;
   const Mat3 across = c.normal * c.normal.transpose();
-  r.hessian = stiffness * across;
+  r.hessian = s.repulsion.stiffness * across;
   if (c.friction <= 0) return r;
   const Mat3 tangent = Mat3::Identity() - across;
   r.sliding = s.slip_length > s.limit;

@@ -3,6 +3,7 @@
 #include "engine/monitor.h"
 #include "engine/parallel/state_hash.h"
 #include "engine/parallel/thread_limit.h"
+#include "engine/terms/contact.h"
 #include "tests/engine/solve/scenes.h"
 
 #include <gtest/gtest.h>
@@ -187,6 +188,34 @@ TEST(Simulate, TheFabricsOwnFrictionCountsWhereTheBodyGivesNone) {
   EXPECT_LT(slide(-1, 0.6), 1e-3);
   EXPECT_GT(slide(-1, 0.0), 0.05);
   EXPECT_GT(slide(0.0, 0.6), 0.05);
+}
+
+TEST(Simulate, ALoadBeyondQuadraticRepulsionPressesLayersButNotThroughEachOther) {
+  Fabric lead = calm();
+  lead.area_density = 5000;
+  Scene scene;
+  scene.garments = {square_garment(0.06, 0.012, 0, calm()), square_garment(0.04, 0.012, 2e-3, lead)};
+  Panel& turned = std::get<Pattern>(scene.garments[1].shape).panels[0];
+  turned.rotation = Eigen::AngleAxisd(0.3, Vec3::UnitY()).toRotationMatrix() * turned.rotation;
+  Cloth cloth = build_cloth(scene);
+  SimulationScene simulated;
+  std::size_t held = 0;
+  for (std::size_t v = 0; v < cloth.x.size(); ++v)
+    if (cloth.vertex_garment[v] == 0) simulated.held.push_back({static_cast<int>(v), cloth.x[v], nullptr}), ++held;
+  const Simulation result = simulate(cloth, simulated, kGoOn);
+  EXPECT_EQ(result.stop_reason, "at_rest");
+  double above = 1, pressed = 0;
+  for (std::size_t v = held; v < cloth.x.size(); ++v) above = std::min(above, cloth.x[v].y());
+  EXPECT_GT(above, 0);
+  const double stiffness = simulated.options.contact_stiffness;
+  std::size_t beyond = 0;
+  for (const Contact& c : result.contacts) {
+    const ContactResponse r = contact_response(c, stiffness, contact_point(c, cloth.x));
+    pressed += r.force.y() * (c.nodes[0] < static_cast<int>(held) ? -1 : 1);
+    beyond += r.normal_force > stiffness * c.distance;
+  }
+  EXPECT_NEAR(pressed, 5000 * 0.04 * 0.04 * kGravity, 0.02 * 5000 * 0.04 * 0.04 * kGravity);
+  EXPECT_GT(beyond, 0u) << "the load is one that quadratic repulsion could carry";
 }
 
 TEST(EstimatedProgress, RisesAndIsOneAtTheLimit) {

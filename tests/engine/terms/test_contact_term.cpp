@@ -66,6 +66,24 @@ TEST(ContactTerm, RepulsionDerivatives) {
   EXPECT_EQ(potential(c).gradient(open).norm(), 0);
 }
 
+TEST(ContactTerm, RepulsionBetweenLayersGrowsBeyondAnyLoad) {
+  Contact c = vertex_triangle(0);
+  const ContactResponse half = contact_response(c, kStiffness, 0.5 * c.distance * c.normal);
+  c.between_layers = true;
+  for (double gap : {0.7, 0.3, 0.05, 2e-3, 5e-4, -0.1})
+    check_derivatives<4>(potential(c), nodes_for(c, (1 - gap) * c.distance, Vec3::Zero()),
+                         std::max(std::abs(gap), 1e-3) * c.distance, "layers");
+  // Down to half the distance it is the quadratic repulsion; there force and stiffness go on without a jump.
+  for (double gap : {0.5 + 1e-12, 0.5 - 1e-12}) {
+    const ContactResponse r = contact_response(c, kStiffness, gap * c.distance * c.normal);
+    EXPECT_NEAR(r.normal_force, half.normal_force, 1e-9 * half.normal_force);
+    EXPECT_NEAR((r.hessian - half.hessian).norm(), 0, 1e-9 * kStiffness);
+  }
+  const double load = 100 * half.normal_force;
+  const double gap = 0.25 * kStiffness * c.distance * c.distance / load;
+  EXPECT_NEAR(contact_response(c, kStiffness, gap * c.normal).normal_force, load, 1e-9 * load);
+}
+
 TEST(ContactTerm, ABilateralContactPullsBackWhatLeaves) {
   Contact c = vertex_triangle(0);
   c.bilateral = true;
