@@ -12,7 +12,9 @@ namespace toile {
 ///   E = area · ½ κᵀ D κ = ½ (θ − θ₀)ᵀ K (θ − θ₀)   [J],   K = Fᵀ F [N·m/rad]
 /// D is the orthotropic plate's tensor with the textile's (cylindrical) D in warp, weft and bias: on vertices of any
 /// cylinder the energy is exact in any direction and on any mesh (the quadratic fit of Grinspun, Gingold, Reisman &
-/// Zorin 2006, "Computing discrete shape operators on general meshes", written in hinge angles). On an equilateral mesh
+/// Zorin 2006, "Computing discrete shape operators on general meshes", written in hinge angles). That alone does not
+/// converge on irregular meshes: K and C are then changed a little so that the forces of constant curvature cancel,
+/// too, while the energy stays right around each vertex (terms/bending_balance.h). On an equilateral mesh
 /// and with Poisson's ratio −1/3 it is the hinge model ½ D l² θ² / (A₀ + A₁), which is what hinges alone can do: on the
 /// panel mesher's meshes those are off by 10 % with the direction, and have no warp and weft to speak of.
 /// At an edge of the cloth, where a hinge is missing, the curvature is that of least energy: no moment across the edge.

@@ -1,7 +1,10 @@
 // How a cloth's triangles become stencils of the bending term.
 
 #include "engine/terms/bending.h"
+#include "engine/terms/bending_balance.h"
 #include "engine/terms/curvature_fit.h"
+
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +81,13 @@ double flat_area(const std::array<Vec2, 3>& flat) {
 using EdgeKey = std::pair<int, int>;
 EdgeKey key_of(int a, int b) { return std::minmax(a, b); }
 
+/// Adds to a row of angles per height what a wing turns by when the edge's ends (start, end) or its tip rise.
+void add_wing(Eigen::Matrix<double, 3, 6>& angles, int corner, int tip, double length, const Wing& wing) {
+  angles(corner, (corner + 1) % 3) += (1 - wing.foot / length) / wing.height;
+  angles(corner, (corner + 2) % 3) += wing.foot / length / wing.height;
+  angles(corner, tip) -= 1 / wing.height;
+}
+
 Directional squares(const Directional& d) { return {d.warp * d.warp, d.weft * d.weft, d.bias * d.bias}; }
 
 bool any(const Directional& d) { return d.warp > 0 || d.weft > 0 || d.bias > 0; }
@@ -105,9 +115,10 @@ struct FabricBending {
   }
 };
 
-/// Everything that is looked up while the stencils are made.
+/// Everything that is looked up while the stencils are made, and the stencils as they lie flat.
 struct Builder {
   const Cloth& cloth;
+  std::vector<FlatBending> flat;
   std::vector<std::array<std::pair<int, int>, 3>> across;
   std::map<std::pair<int, int>, int> clamp_tip;  ///< by triangle and corner
   std::vector<char> holds;                       ///< per triangle: a clamp holds by it
@@ -141,7 +152,7 @@ struct Builder {
     return opposed ? crease.rest_angle : -crease.rest_angle;
   }
 
-  void add(int t, BendingStencils& out) const {
+  void add(int t, BendingStencils& out) {
     const Triangle& v = cloth.triangles[t];
     const Fabric& fabric = cloth.fabrics.at(cloth.panels.at(cloth.triangle_panel[t]).fabric);
     const FabricBending& bending = fabrics[cloth.panels[cloth.triangle_panel[t]].fabric];
@@ -150,33 +161,51 @@ struct Builder {
     s.rest_angle.setZero();
     s.damping = fabric.bending_damping;
     std::array<Vec3, 3> rows;
+    FlatBending lies;
+    lies.angles.setZero();
+    lies.plain = true;
     for (int c = 0; c < 3; ++c) {
       s.nodes[c] = s.nodes[3 + c] = v[c];
       rows[c].setZero();
       const FlatEdge e = flat_edge(cloth.flat[t], c);
+      lies.along[c] = e.along;
       const EdgeKey key = key_of(v[(c + 1) % 3], v[(c + 2) % 3]);
       const auto clamp = clamp_tip.find({t, c});
       if (clamp != clamp_tip.end()) {
         s.nodes[3 + c] = clamp->second;
         rows[c] = clamped_hinge_row(e.along, e.across, e.length, e.wing);
+        lies.clamped[c] = true;
       } else if (across[t][c].first >= 0) {
         const auto [other, corner] = across[t][c];
         s.nodes[3 + c] = cloth.triangles[other][corner];
-        rows[c] = hinge_row(e.along, e.across, e.length, e.wing, far_wing(t, c, e.length, across[t][c]));
+        const Wing far = far_wing(t, c, e.length, across[t][c]);
+        rows[c] = hinge_row(e.along, e.across, e.length, e.wing, far);
+        add_wing(lies.angles, c, 3 + c, e.length, far);
+        if (across[other][corner] != std::pair{t, c}) lies.plain = false;
       } else {
         continue;
       }
+      add_wing(lies.angles, c, c, e.length, e.wing);
       s.hinge[c] = true;
       const auto crease = creases.find(key);
       if (crease == creases.end()) continue;
       s.rest_angle[c] = rest_angle(crease->second, t, c);
       rows[c] /= std::sqrt(crease->second.stiffness_factor);
+      if (crease->second.stiffness_factor != 1) lies.plain = false;
     }
     if (!s.hinge[0] && !s.hinge[1] && !s.hinge[2]) return;
     const double area = flat_area(cloth.flat[t]);
     const CurvatureFit fitted = fit_curvature(rows, s.hinge, bending.stiffness, area);
     s.factor = fitted.factor;
     out.stencils.push_back(s);
+    lies.nodes = s.nodes;
+    lies.hinge = s.hinge;
+    for (int c = 0; c < 3; ++c) lies.rows.row(c) = rows[c].transpose();
+    lies.stiffness = bending.stiffness;
+    lies.factor = fitted.factor;
+    lies.area = area;
+    lies.panel = cloth.triangle_panel[t];
+    flat.push_back(lies);
     BendingLaw law;
     if (!bending.linear)
       law = {area, fitted.fit, bending.stiffness, bending.softening, bending.friction, bending.onset, Vec3::Zero()};
@@ -187,9 +216,16 @@ struct Builder {
 }  // namespace
 
 BendingStencils bending_stencils(const Cloth& cloth) {
-  const Builder builder(cloth);
+  Builder builder(cloth);
   BendingStencils result;
   for (int t = 0; t < static_cast<int>(cloth.triangles.size()); ++t) builder.add(t, result);
+  const std::vector<Mat3> balance = balanced(builder.flat, cloth.x.size());
+  for (std::size_t i = 0; i < balance.size(); ++i) {
+    const Mat3 factor = result.stencils[i].factor;
+    result.stencils[i].factor = balance[i] * factor;
+    // The curvature that the law sees goes with it: area Cᵀ D C stays K.
+    result.laws[i].fit *= factor.completeOrthogonalDecomposition().solve(result.stencils[i].factor);
+  }
   const bool linear =
       std::all_of(result.laws.begin(), result.laws.end(), [](const BendingLaw& law) { return law.linear(); });
   if (linear) result.laws.clear();

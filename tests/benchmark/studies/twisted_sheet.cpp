@@ -18,7 +18,7 @@ namespace {
 struct Outcome {
   Positions x;
   double seconds = 0, simulated = 0;
-  std::size_t vertices = 0, crossings = 0;
+  std::size_t vertices = 0, crossings = 0, contacts = 0;
   long splits = 0;
   bool finite = false;
 };
@@ -36,6 +36,7 @@ Outcome run(const Fabric& fabric, double edge_length, double newton_tolerance, d
           result.time,
           sheet.cloth.x.size(),
           self_intersections(sheet.cloth.x, sheet.cloth.triangles).size(),
+          result.cloth_contacts,
           result.splits,
           all_finite(sheet.cloth.x)};
 }
@@ -56,14 +57,14 @@ int main(int count, char** words) {
   const Outcome reference = run(fabric, edge_length, 1e-7, 0.5);
   std::printf("%zu vertices; reference (1e-7, 0.5): %.1f s, %zu crossings\n", reference.vertices, reference.seconds,
               reference.crossings);
-  std::printf("%-8s %-6s %10s %8s %10s %10s %10s %s\n", "tau_n", "omega", "time s", "splits", "mean mm", "max mm",
-              "crossings", "state");
+  std::printf("%-8s %-6s %10s %8s %10s %10s %10s %10s %s\n", "tau_n", "omega", "time s", "splits", "mean mm", "max mm",
+              "contacts", "crossings", "state");
   for (double tolerance : {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1})
     for (double factor : factors) {
       const Outcome ours = run(fabric, edge_length, tolerance, factor);
       const DrapeDistance distance = vertex_distance(ours.x, reference.x);
-      std::printf("%-8.0e %-6.2f %10.1f %8ld %10.2f %10.2f %10zu %s\n", tolerance, factor, ours.seconds, ours.splits,
-                  1e3 * distance.mean, 1e3 * distance.max, ours.crossings,
+      std::printf("%-8.0e %-6.2f %10.1f %8ld %10.2f %10.2f %10zu %10zu %s\n", tolerance, factor, ours.seconds,
+                  ours.splits, 1e3 * distance.mean, 1e3 * distance.max, ours.contacts, ours.crossings,
                   !ours.finite            ? "not finite"
                   : ours.simulated < 2.99 ? "stopped early"
                                           : "ended");

@@ -43,7 +43,7 @@ TEST(MeshBending, ThePanelMeshersMeshesBendRight) {
   const Cloth cloth = build_cloth(tube_scene(0.012));
   const MeshBending found = measure_mesh_bending(cloth, 0);
   std::printf("panel mesher: %.4f to %.4f\n", found.least, found.largest);
-  EXPECT_GT(found.least, 0.98);
+  EXPECT_GT(found.least, 0.99);
   EXPECT_LT(found.largest, 1.001);
 }
 
@@ -57,7 +57,9 @@ TEST(MeshBending, FourTrianglesASquareBendTooEasilyAndAreWarnedOf) {
   Cloth cloth = grid(20, true);
   const MeshBending found = measure_mesh_bending(cloth, 0);
   std::printf("four triangles a square: %.4f to %.4f\n", found.least, found.largest);
-  EXPECT_LT(found.least, 0.9);
+  EXPECT_LT(found.least, 0.96);  // no form of six nodes reaches 1 (terms/bending_balance.h)
+  EXPECT_GT(found.least, 0.92);
+  EXPECT_LT(found.largest, 0.97);
   warn_of_mesh_bending(cloth, {0});
   EXPECT_TRUE(cloth.warnings.empty());
   warn_of_mesh_bending(cloth, {1});
