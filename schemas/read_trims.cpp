@@ -49,6 +49,7 @@ void read_trims(const json& document, const std::string& pointer, Garment& garme
     }
     trim.stiffness = element.value("stiffness_N_m", trim.stiffness);
     trim.damping = element.value("damping_s", trim.damping);
+    trim.friction = element.value("friction", trim.friction);
     garment.trims.push_back(std::move(trim));
   });
 }

@@ -92,6 +92,8 @@ void place_trim(const Trim& trim, const std::vector<Hole>& holes, double spacing
   const double first_depth = 0.5 * (button.thickness + spacing);
   RigidTrim& placed = trimmings.trims.emplace_back();
   placed.body = disc_body(button.mass, button.diameter, button.thickness);
+  placed.shape = disc_shape(button.diameter, button.thickness);
+  placed.friction = trim.friction;
   placed.start.center = position(cloth, holes[0].point) + first_depth * normal;
   placed.start.orientation = Eigen::Quaterniond(axes).normalized();
 

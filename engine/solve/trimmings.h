@@ -4,6 +4,7 @@
 #include "engine/mesh/cloth.h"
 #include "engine/scene/scene.h"
 #include "engine/solve/rigid_body.h"
+#include "engine/solve/trim_shape.h"
 #include "engine/terms/attachment.h"
 #include "engine/terms/drawcord.h"
 #include "engine/terms/elastic.h"
@@ -16,6 +17,8 @@ namespace toile {
 struct RigidTrim {
   RigidBody body;
   RigidState start;
+  TrimShape shape = {};
+  double friction = 0;  ///< Coulomb coefficient against cloth and body
 };
 
 struct Trimmings {
