@@ -40,7 +40,7 @@ struct StepTimes {
   double line_search = 0;   ///< the residual at trial points
 };
 
-/// Energies by term [J]; tension: of elastics and drawcords; attachment: of trims' springs;
+/// Energies by term [J]; tension: of elastics, drawcords and tapes; attachment: of trims' springs;
 /// gravity and kinetic with the trims' share.
 struct Energies {
   double membrane = 0, bending = 0, tension = 0, attachment = 0, gravity = 0, contact = 0, kinetic = 0;

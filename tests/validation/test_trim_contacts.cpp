@@ -116,16 +116,20 @@ Slide slide(double friction, double slope, double from, double to) {
   scene.options.air_drag = 0;
   scene.options.early_stop = false;
   const RigidTrim trim = button((0.5 * kThickness - 1e-6) * normal, friction, rotation_by(Vec3(0, 0, -slope)) * kLying);
-  const auto place_at = [&](double time) {
+  struct Moment {
+    double time, place;
+  };
+  const auto moment_at = [&](double time) -> Moment {
     SimulationScene run = scene;
     run.trimmings.trims = {trim};
     run.options.simulated_time_limit = time;
     Cloth copy = cloth;
-    return simulate(copy, run, kGoOn).trims[0].center.dot(downhill);
+    const Simulation result = simulate(copy, run, kGoOn);
+    return {result.time, result.trims[0].center.dot(downhill)};
   };
-  const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
-  const double first = place_at(from), second = place_at(middle), third = place_at(to);
-  return {third - first, (third - 2 * second + first) / (half * half)};
+  const Moment a = moment_at(from), b = moment_at(0.5 * (from + to)), c = moment_at(to);
+  const double early = (b.place - a.place) / (b.time - a.time), late = (c.place - b.place) / (c.time - b.time);
+  return {c.place - a.place, (late - early) / (0.5 * (c.time - a.time))};
 }
 
 }  // namespace
