@@ -5,13 +5,13 @@
 #include "engine/mesh/sewing.h"
 #include "engine/parallel/thread_limit.h"
 #include "engine/quality/admissible_contact.h"
+#include "engine/quality/admissible_forces.h"
 #include "engine/quality/measure.h"
 #include "engine/quality/mesh_bending.h"
 #include "engine/quality/warnings.h"
 #include "engine/scene/check.h"
 #include "engine/solve/still_cloth.h"
 
-#include <algorithm>
 #include <optional>
 
 namespace toile {
@@ -29,11 +29,6 @@ std::vector<int> attached_vertices(const Scene& scene, const Cloth& sewn) {
       attached.insert(attached.end(), chosen.begin(), chosen.end());
     }
   return attached;
-}
-
-bool rubs_as_it_bends(const Fabric& fabric) {
-  const Directional& loop = fabric.bending_hysteresis;
-  return std::max({loop.warp, loop.weft, loop.bias}) > 0;
 }
 
 }  // namespace
@@ -55,7 +50,10 @@ std::vector<double> measure_equilibrium(const Cloth& sewn, const Positions& star
   }
   std::vector<char> held(sewn.x.size(), 0);
   for (const HeldVertex& h : scene.held) held[h.vertex] = 1;
-  const AdmissibleContact best = admissible_contact(contacts, still.force, still.mass, held);
+  const bool rubs = options.bending_friction && !still.friction_moments.empty();
+  const AdmissibleContact best =
+      rubs ? admissible_forces(contacts, still.friction_moments, still.force, still.mass, held)
+           : admissible_contact(contacts, still.force, still.mass, held);
   measure_residual(best.net_force, still.mass, held, report);
   const std::span<const Contact> all(contacts);
   const std::span<const Vec3> forces(best.contact_force);
@@ -98,8 +96,6 @@ Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& o
   const std::vector<double> contact_distance = measure_equilibrium(matched.cloth, at_start.x, still, options, report);
   measure_geometry(matched.cloth, still.body, report);
   add_warnings(matched.cloth, contact_distance, report);
-  if (std::any_of(apart.fabrics.begin(), apart.fabrics.end(), rubs_as_it_bends))
-    report.warnings.emplace_back("the friction of bending is not judged: a mesh does not say how it was bent before");
   const double at_rest = scene.solver.rest_residual > 0 ? scene.solver.rest_residual : kAtRest;
   const bool converged = report.residual_rms < at_rest && report.seam_gap_max < kClosedSeam;
   report.status = converged ? "converged" : "not_converged";

@@ -16,13 +16,16 @@ struct CheckOptions {
   /// reaches. For programs that keep layers farther apart than this one does. Between cloth and cloth, 0.3 of the
   /// smallest altitude of the triangles around bounds it, as everywhere.
   double touch = 0;
+  /// Whether the friction of bending may do what it likes within its law; without it, there is none.
+  bool bending_friction = true;
 };
 
 /// Judges `mesh` as a drape of the scene's garments, at rest: stretch, penetration, intersections, seam gaps, energies,
 /// contacts, the discretisation error, warnings, and the residual of the forces. Of contacts only their places are
 /// taken from the mesh: they may press and rub with any force in their Coulomb cones, and the residual is what the best
 /// choice leaves (quality/admissible_contact.h). So it is no larger than that of a drape's own report, up to the end of
-/// that search, and knows nothing of the history of friction. The friction of bending is left out, with a warning.
+/// that search, and knows nothing of the history of friction. Nor of that of bending: where a fabric rubs as it bends,
+/// each triangle may have any moment that its friction allows (quality/admissible_forces.h).
 /// Vertices that the scene's pins hold, as they select them at the start, may be anywhere; clamps hold the planes in
 /// which the panels lie before they are sewn. How `mesh` is matched to the garments is said in mesh/match_mesh.h.
 /// report.stop_reason is "checked", and status "converged" if the residual's rms is under solver.rest_residual (0.05

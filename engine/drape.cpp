@@ -126,8 +126,9 @@ bool slides_on_body(const Scene& scene) {
 }
 
 bool has_trims(const Scene& scene) {
-  return std::any_of(scene.garments.begin(), scene.garments.end(),
-                     [](const Garment& g) { return !g.elastics.empty() || !g.drawcords.empty() || !g.trims.empty(); });
+  return std::any_of(scene.garments.begin(), scene.garments.end(), [](const Garment& g) {
+    return !g.elastics.empty() || !g.drawcords.empty() || !g.trims.empty() || !g.zippers.empty();
+  });
 }
 
 void fill_simulation(const Simulation& simulation, const std::vector<HeldVertex>& held, double contact_stiffness,
@@ -216,10 +217,11 @@ Drape drape(const Scene& scene, Monitor& monitor) {
                                             scene.friction_pairs,
                                             {},
                                             {}},
-                                           {}, report);
+                                           {.bending_friction = false}, report);
     report.warnings.push_back("preview: positions only, no forces; not an equilibrium of the fabric");
     if (slides_on_body(scene)) report.warnings.push_back("preview: what slides along the body is held");
-    if (has_trims(scene)) report.warnings.push_back("preview: elastics and drawcords do not pull, trims are left out");
+    if (has_trims(scene))
+      report.warnings.push_back("preview: elastics, drawcords and tapes do not pull, trims are left out");
   } else {
     std::vector<SlidingVertex> sliding;
     if (!before.x.empty()) sliding = sliding_vertices(scene, before, result.cloth, assembly.old_to_new);
@@ -248,7 +250,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
   result.stretch_warp = stretch.warp;
   result.stretch_weft = stretch.weft;
   if (bodies.whole) result.body_mesh = bodies.whole->surface();
-  append_trims(scene, result.trims, result.body_mesh);
+  append_trims(result.trims, result.body_mesh);
   report.time.total = seconds_since(started);
   return result;
 }

@@ -16,7 +16,8 @@ struct Drape {
   Cloth cloth;  ///< sewn and draped: final positions in cloth.x
   /// The body as a surface (a plane: a large square) and the trims, for pictures; empty without either.
   TriangleMesh body_mesh;
-  std::vector<RigidTrim> trims;  ///< where they ended, in the order of the garments and their trims
+  std::vector<RigidTrim> trims;  ///< where they ended, in the order of the garments and their trims,
+                                 ///< then those of their zippers
   /// Per vertex of cloth, sum of contact forces [N] (overlay `contact`).
   std::vector<double> contact_force;
   /// Per triangle, stretch ratio minus one along warp and weft (overlay `stretch`).

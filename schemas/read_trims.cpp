@@ -17,6 +17,38 @@ void for_each_element(const json& document, const char* key, const std::string& 
   for (std::size_t k = 0; k < found->size(); ++k) read((*found)[k], child(child(pointer, key), k));
 }
 
+void read_zippers(const json& document, const std::string& pointer, Garment& garment) {
+  for_each_element(document, "zippers", pointer, [&](const json& element, const std::string& here) {
+    Zipper zipper;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::string side = child(child(here, "sides"), k);
+      const Selection selection = read_selection(element.at("sides")[k], garment, side);
+      if (const auto* edge = std::get_if<PinEdge>(&selection)) {
+        zipper.sides[k] = *edge;
+      } else {
+        zipper.sides[k] = std::get<PinVertices>(selection);
+      }
+    }
+    const auto read_end = [&](const char* key, ZipperEnd& end) {
+      const json given = element.value(key, json::object());
+      end.size = read_vector(given, "size_mm", end.size * 1e3) * 1e-3;
+      end.mass = given.value("mass_g", end.mass * 1e3) * 1e-3;
+    };
+    zipper.from_end = element.value("bottom", "start") == "end";
+    zipper.closed_fraction = element.value("closed_percent", zipper.closed_fraction * 1e2) * 1e-2;
+    zipper.mass_per_length = element.value("mass_g_m", zipper.mass_per_length * 1e3) * 1e-3;
+    zipper.stiffness = element.value("stiffness_N", zipper.stiffness);
+    zipper.bending = element.value("bending_N_mm2", zipper.bending * 1e6) * 1e-6;
+    zipper.damping = element.value("damping_s", zipper.damping);
+    read_end("slider", zipper.slider);
+    read_end("stops", zipper.stop);
+    zipper.thread_stiffness = element.value("thread_stiffness_N_m", zipper.thread_stiffness);
+    zipper.thread_damping = element.value("thread_damping_s", zipper.thread_damping);
+    zipper.friction = element.value("friction", zipper.friction);
+    garment.zippers.push_back(std::move(zipper));
+  });
+}
+
 }  // namespace
 
 void read_trims(const json& document, const std::string& pointer, Garment& garment) {
@@ -49,8 +81,10 @@ void read_trims(const json& document, const std::string& pointer, Garment& garme
     }
     trim.stiffness = element.value("stiffness_N_m", trim.stiffness);
     trim.damping = element.value("damping_s", trim.damping);
+    trim.friction = element.value("friction", trim.friction);
     garment.trims.push_back(std::move(trim));
   });
+  read_zippers(document, pointer, garment);
 }
 
 }  // namespace toile

@@ -34,7 +34,7 @@ std::vector<Pin> attached_pins(const nlohmann::json& garment, const Pattern& pat
 /// What a valid pin, elastic or drawcord of a garment selects.
 Selection read_selection(const nlohmann::json& document, const Garment& garment, const std::string& pointer);
 
-/// What is sewn onto a valid garment: fills its elastics, drawcords and trims.
+/// What is sewn onto a valid garment: fills its elastics, drawcords, trims and zippers.
 void read_trims(const nlohmann::json& document, const std::string& pointer, Garment& garment);
 
 /// One valid pin of a garment.

@@ -29,7 +29,7 @@ void BlockJacobi::set(int row, const Eigen::Matrix3f& diagonal_block) {
 
 CgOutcome ConjugateGradient::solve(const BlockMatrix& fixed, ContactMatrix& dynamic, const BlockJacobi& preconditioner,
                                    const NodeVector& b, double tolerance, int most_iterations, NodeVector& x,
-                                   RankOneMatrix* wide) {
+                                   std::span<RankOneMatrix* const> wide) {
   const int rows = fixed.rows();
   x.resize(rows);
   residual_.resize(rows);
@@ -39,11 +39,11 @@ CgOutcome ConjugateGradient::solve(const BlockMatrix& fixed, ContactMatrix& dyna
   const auto multiply = [&](int begin, int end, const NodeVector& v) {
     fixed.multiply_rows(begin, end, v, product_);
     if (dynamic.size() > 0) dynamic.multiply_add_rows(begin, end, product_);
-    if (wide) wide->multiply_add_rows(begin, end, product_);
+    for (const RankOneMatrix* w : wide) w->multiply_add_rows(begin, end, product_);
   };
   const auto gather = [&](const NodeVector& v) {
     parallel_ranges(dynamic.size(), kContactsPerTask, [&](int begin, int end) { dynamic.gather(begin, end, v); });
-    if (wide) wide->gather(v);
+    for (RankOneMatrix* w : wide) w->gather(v);
   };
 
   parallel_for_each(rows, 2 * kRowsPerTask, [&](int i) {

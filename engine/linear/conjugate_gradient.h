@@ -26,7 +26,7 @@ struct CgOutcome {
   double relative_residual = 0;  ///< ‖A x − b‖ / ‖b‖ by recurrence
 };
 
-/// Solves (fixed + dynamic + wide) x = b (wide: null for none) for symmetric positive definite matrices, to ‖A x − b‖ <
+/// Solves (fixed + dynamic + Σ wide) x = b for symmetric positive definite matrices, to ‖A x − b‖ <
 /// tolerance ‖b‖ or `most_iterations`. On entry x is a guess, used if its residual is below ‖b‖, else zero is; empty
 /// means zero. Vectors are single precision, dot products are summed in double over fixed ranges. Stops early where
 /// rounding makes a direction's curvature not positive: x is then the best so far. Keeps its work vectors between
@@ -35,7 +35,7 @@ class ConjugateGradient {
  public:
   CgOutcome solve(const BlockMatrix& fixed, ContactMatrix& dynamic, const BlockJacobi& preconditioner,
                   const NodeVector& b, double tolerance, int most_iterations, NodeVector& x,
-                  RankOneMatrix* wide = nullptr);
+                  std::span<RankOneMatrix* const> wide = {});
 
  private:
   NodeVector residual_, preconditioned_, direction_, product_;

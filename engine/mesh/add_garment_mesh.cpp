@@ -1,6 +1,7 @@
 #include "engine/mesh/cloth_builder.h"
 #include "engine/mesh/conforming_seams.h"
 #include "engine/mesh/pattern_pointer.h"
+#include "engine/mesh/zippers.h"
 #include "engine/scene/problem.h"
 
 #include <algorithm>
@@ -111,6 +112,21 @@ void add_garment_mesh(const Garment& garment, const GarmentMesh& shape, int garm
       throw InputError(pointer, "vertex_out_of_range", "a seam names a vertex that is in no triangle");
     }
     if (a != b) cloth.seam_pairs.push_back({a + base, b + base, seam + (p >= stitched && stitched > 0 ? 1 : 0)});
+  }
+  for (std::size_t z = 0; z < garment.zippers.size(); ++z) {
+    std::array<std::vector<int>, 2> runs;
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (const int v : std::get<PinVertices>(garment.zippers[z].sides[k]).vertices) {
+        const int used = v < static_cast<int>(renumbered.size()) ? renumbered[static_cast<std::size_t>(v)] : -1;
+        if (used < 0) {
+          throw InputError(garment_pointer(static_cast<std::size_t>(garment_index)) + "/zippers/" + std::to_string(z) +
+                               "/sides/" + std::to_string(k),
+                           "vertex_out_of_range", "a zipper names a vertex that is in no triangle");
+        }
+        runs[k].push_back(used + base);
+      }
+    }
+    add_zipper(garment.zippers[z], z, garment_index, runs, cloth);
   }
 }
 

@@ -3,6 +3,7 @@
 #include "engine/mesh/panel_mesher.h"
 #include "engine/mesh/panel_outline.h"
 #include "engine/mesh/pattern_pointer.h"
+#include "engine/mesh/zippers.h"
 #include "engine/scene/problem.h"
 
 #include <algorithm>
@@ -69,8 +70,8 @@ void check_loop(const Panel& panel, std::size_t garment) {
   }
 }
 
-/// Segments per edge: ceil(length / h), and on both sides of a stitch the larger of the two.
-PerEdge<int> segment_counts(const Pattern& pattern, double h, std::size_t garment) {
+/// Segments per edge: ceil(length / h), and on both sides of a stitch or zipper the larger of the two.
+PerEdge<int> segment_counts(const Pattern& pattern, const std::vector<Zipper>& zippers, double h, std::size_t garment) {
   PerEdge<int> counts(pattern.panels.size());
   double vertices = 0;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
@@ -97,6 +98,13 @@ PerEdge<int> segment_counts(const Pattern& pattern, double h, std::size_t garmen
     int& a = counts[static_cast<std::size_t>(stitch.a.panel)][static_cast<std::size_t>(stitch.a.edge)];
     int& b = counts[static_cast<std::size_t>(stitch.b.panel)][static_cast<std::size_t>(stitch.b.edge)];
     a = b = std::max(a, b);
+  }
+  for (const Zipper& zipper : zippers) {
+    const auto count = [&](std::size_t side) -> int& {
+      const PinEdge& edge = std::get<PinEdge>(zipper.sides[side]);
+      return counts[static_cast<std::size_t>(edge.panel)][static_cast<std::size_t>(edge.edge)];
+    };
+    count(0) = count(1) = std::max(count(0), count(1));
   }
   return counts;
 }
@@ -148,7 +156,7 @@ void add_pattern(const Garment& garment, const Pattern& pattern, int garment_ind
     throw InputError(garment_pointer(g) + "/edge_length_mm", "edge_length_range", "the edge length must be positive");
   }
   check_stitches(pattern, g);
-  const PerEdge<int> counts = segment_counts(pattern, garment.edge_length, g);
+  const PerEdge<int> counts = segment_counts(pattern, garment.zippers, garment.edge_length, g);
 
   PerEdge<std::vector<int>> edge_vertices;
   std::map<std::string, std::vector<int>> by_label;
@@ -181,6 +189,17 @@ void add_pattern(const Garment& garment, const Pattern& pattern, int garment_ind
     for (std::size_t i = 0; i < a.size(); ++i) {
       if (a[i] != b[i]) cloth.seam_pairs.push_back({a[i], b[i], seam});  // equal: the tip of a dart
     }
+  }
+  for (std::size_t z = 0; z < garment.zippers.size(); ++z) {
+    const Zipper& zipper = garment.zippers[z];
+    std::array<std::vector<int>, 2> sides;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const PinEdge& edge = std::get<PinEdge>(zipper.sides[k]);
+      sides[k] = edge_vertices[static_cast<std::size_t>(edge.panel)][static_cast<std::size_t>(edge.edge)];
+    }
+    std::vector<int>& runs_down = sides[zipper.from_end ? 0 : 1];
+    std::reverse(runs_down.begin(), runs_down.end());
+    add_zipper(zipper, z, garment_index, sides, cloth);
   }
 }
 

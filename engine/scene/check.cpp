@@ -57,6 +57,7 @@ double check_garment(const Garment& garment, std::size_t index, bool has_body, s
   }
   check_pins(garment, has_body, pointer + "/pins", problems);
   check_trims(garment, pointer, problems);
+  check_zippers(garment, pointer + "/zippers", problems);
   check_folds(garment, pointer, problems);
   return vertices;
 }

@@ -32,4 +32,7 @@ void check_pins(const Garment& garment, bool has_body, const std::string& pointe
 /// Elastics, drawcords and trims of a garment whose pointer is given.
 void check_trims(const Garment& garment, const std::string& pointer, std::vector<Problem>& problems);
 
+/// Zippers, whose list's pointer is given.
+void check_zippers(const Garment& garment, const std::string& pointer, std::vector<Problem>& problems);
+
 }  // namespace toile

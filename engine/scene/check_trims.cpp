@@ -56,6 +56,7 @@ void check_trims(const Garment& garment, const std::string& pointer, std::vector
             here + "/button", "A button is 1 to 200 mm wide, 0.1 to 100 mm thick and weighs 0.001 to 1000 g.");
     require(within(trim.stiffness, 1e-3, 1e7), here + "/stiffness_N_m", "The stiffness must be 0.001 to 1e7 N/m.");
     require(within(trim.damping, 0, 1e3), here + "/damping_s", "The damping must not be negative.");
+    require(within(trim.friction, 0, 10), here + "/friction", "The friction must be 0 to 10.");
     require(!trim.holes.empty(), here + "/attach", "A trim is attached somewhere.");
     for (std::size_t h = 0; h < trim.holes.size(); ++h) {
       const std::string place = here + "/attach/" + std::to_string(h);

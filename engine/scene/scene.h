@@ -8,6 +8,7 @@
 #include "engine/scene/pin.h"
 #include "engine/scene/solver_options.h"
 #include "engine/scene/trim.h"
+#include "engine/scene/zipper.h"
 
 #include <algorithm>
 #include <map>
@@ -52,6 +53,7 @@ struct Garment {
   std::vector<Elastic> elastics;
   std::vector<Drawcord> drawcords;
   std::vector<Trim> trims;
+  std::vector<Zipper> zippers;
 };
 
 /// The rung on the ladder of speed against accuracy. `preview` stops after the position-based solver.

@@ -36,13 +36,14 @@ struct TrimHole {
 };
 
 /// A button on the right side of the cloth at its first hole, and the layers that its thread holds beneath it, in that
-/// order. It has no contact of its own with cloth or body: its layers have. Each layer is held by four springs around
-/// the hole (terms/attachment.h).
+/// order. Each layer is held by four springs around the hole (terms/attachment.h); what it touches pushes it
+/// (terms/trim_contact.h).
 struct Trim {
   Button button;
   std::vector<TrimHole> holes;  ///< at least one
   double stiffness = 1000;      ///< of the springs of one layer together [N/m]
   double damping = 5e-3;        ///< β [s]
+  double friction = 0.2;        ///< Coulomb coefficient of the button against cloth and body
 };
 
 }  // namespace toile

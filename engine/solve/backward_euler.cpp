@@ -5,6 +5,7 @@
 #include "engine/solve/contact_system.h"
 #include "engine/solve/static_system.h"
 #include "engine/solve/tension_system.h"
+#include "engine/solve/trim_contact_system.h"
 #include "engine/terms/air_drag.h"
 #include "engine/terms/contact.h"
 #include "engine/terms/gravity.h"
@@ -122,6 +123,7 @@ struct BackwardEuler::Implementation {
     tension.add_forces(x, v, p.fabric_factor, force);
     system.trims().add_forces(x, v, p.fabric_factor, force);
     contacts.add_forces(x, options.contact_stiffness, force);
+    trim_contacts.add_forces(system.trims(), x, options.contact_stiffness, force);
     return finish_residual(p, x, v);
   }
 
@@ -135,6 +137,8 @@ struct BackwardEuler::Implementation {
     }
     Stopwatch watch(times.assembly);
     contacts.add_forces_and_matrix(x, options.contact_stiffness, p.h * p.h, force, matrix);
+    trim_contacts.add_forces_and_matrix(system.trims(), x, options.contact_stiffness, p.h * p.h, force, matrix);
+    const std::vector<RankOneMatrix*> wide_parts = wide();
     right_hand_side.resize(system.unknowns());
     const Norms norms = finish_residual(p, x, v);
     parallel_for_each(system.unknowns(), kNodesPerTask, [&](int i) {
@@ -148,11 +152,19 @@ struct BackwardEuler::Implementation {
       } else {
         Eigen::Matrix3f diagonal = Eigen::Map<const Eigen::Matrix3f>(matrix.values(i));
         if (contacts.coupled().size() > 0) diagonal += contacts.coupled().diagonal(i);
-        if (tension.wide()) diagonal += tension.wide()->diagonal(i);
+        for (const RankOneMatrix* part : wide_parts) diagonal += part->diagonal(i);
         preconditioner.set(i, diagonal);
       }
     });
     return norms;
+  }
+
+  /// What couples more nodes than a block's two: cords, and what trims touch.
+  std::vector<RankOneMatrix*> wide() {
+    std::vector<RankOneMatrix*> parts;
+    for (RankOneMatrix* part : {tension.wide(), trim_contacts.wide()})
+      if (part) parts.push_back(part);
+    return parts;
   }
 
   /// A copy of the trims that stands at `states`, and the positions and velocities of all nodes.
@@ -161,6 +173,12 @@ struct BackwardEuler::Implementation {
     TrimSystem trims = system.trims();
     trims.begin_step(states, x, v);
     return {std::move(trims), std::move(x), std::move(v)};
+  }
+
+  TrimContactSystem touching(const TrimSystem& trims, const std::vector<TrimContact>& touched) const {
+    TrimContactSystem contacts_of_trims;
+    contacts_of_trims.rebuild(touched, system.place(), trims, system.unknowns());
+    return contacts_of_trims;
   }
 
   SolverOptions options;
@@ -172,6 +190,7 @@ struct BackwardEuler::Implementation {
   std::vector<int> unknown_place;  ///< cloth's index → solver's, and trims' nodes where they are
   double weight_norm = 0;          ///< root of the sum of squared nodal weights [N]
   ContactSystem contacts;
+  TrimContactSystem trim_contacts;
   ConjugateGradient conjugate_gradient;
   Positions force, b;
   NodeVector right_hand_side, delta_v;
@@ -185,7 +204,7 @@ BackwardEuler::BackwardEuler(BackwardEuler&&) noexcept = default;
 BackwardEuler& BackwardEuler::operator=(BackwardEuler&&) noexcept = default;
 
 StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor, std::vector<Contact>& contacts,
-                                const Kinematic& kinematic, StepTimes& times) {
+                                const Kinematic& kinematic, StepTimes& times, std::vector<TrimContact>* trim_contacts) {
   Implementation& s = *implementation_;
   const std::vector<int>& order = s.system.order();
   const int nodes = s.system.unknowns(), cloth_nodes = s.system.nodes();
@@ -207,6 +226,8 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
   {
     Stopwatch watch(times.assembly);
     s.contacts.rebuild(contacts, s.unknown_place);
+    s.trim_contacts.rebuild(trim_contacts ? *trim_contacts : std::vector<TrimContact>{}, s.system.place(),
+                            s.system.trims(), nodes);
   }
   const StepProblem problem{&v0, &held, h, stiffness_factor};
   const double at_rest = std::min(s.options.newton_tolerance, kRestFraction * h * s.weight_norm);
@@ -224,7 +245,7 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
       Stopwatch watch(times.linear_solve);
       outcome.cg_iterations += s.conjugate_gradient
                                    .solve(s.matrix, s.contacts.coupled(), s.preconditioner, s.right_hand_side,
-                                          s.options.cg_tolerance, s.options.cg_iterations, s.delta_v, s.tension.wide())
+                                          s.options.cg_tolerance, s.options.cg_iterations, s.delta_v, s.wide())
                                    .iterations;
     }
     Stopwatch watch(times.line_search);
@@ -269,6 +290,7 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
   state.trims = s.system.trims().states(x, v);
   s.system.advance_slip(x);
   advance_anchors(contacts, s.options.contact_stiffness, state.x);
+  if (trim_contacts) s.trim_contacts.advance_anchors(s.system.trims(), x, s.options.contact_stiffness, *trim_contacts);
   return outcome;
 }
 
@@ -300,8 +322,8 @@ Energies BackwardEuler::energies(const State& state, const std::vector<Contact>&
   return e;
 }
 
-std::vector<TermEnergy> BackwardEuler::energies_by_term(const Positions& x,
-                                                        const std::vector<RigidState>& trim_states) const {
+std::vector<TermEnergy> BackwardEuler::energies_by_term(const Positions& x, const std::vector<RigidState>& trim_states,
+                                                        const std::vector<TrimContact>& trim_contacts) const {
   const Implementation& s = *implementation_;
   const Positions nodes = permuted(x, s.system.order());
   std::vector<TermEnergy> energies = s.system.energies(nodes);
@@ -312,6 +334,8 @@ std::vector<TermEnergy> BackwardEuler::energies_by_term(const Positions& x,
   if (!trim_states.empty()) {
     const auto [trims, all_nodes, still] = s.with_trims(nodes, Positions(nodes.size(), Vec3::Zero()), trim_states);
     energies.push_back({"attachment", trims.energy(all_nodes)});
+    energies.push_back(
+        {"trim_contact", s.touching(trims, trim_contacts).energy(trims, all_nodes, s.options.contact_stiffness)});
     for (int t = 0; t < trims.trims() && s.options.gravity; ++t)
       gravity += gravity_energy(trims.bodies()[t].mass, trim_states[t].center);
   }
@@ -328,7 +352,8 @@ std::vector<double> BackwardEuler::kinetic_energy(const State& state) const {
 }
 
 Positions BackwardEuler::static_forces(const Positions& positions, const std::vector<Contact>& contacts,
-                                       const std::vector<RigidState>& trim_states) const {
+                                       const std::vector<RigidState>& trim_states,
+                                       const std::vector<TrimContact>& trim_contacts) const {
   const Implementation& s = *implementation_;
   const auto [trims, x, moving] =
       s.with_trims(permuted(positions, s.system.order()), Positions(positions.size(), Vec3::Zero()), trim_states);
@@ -342,17 +367,24 @@ Positions BackwardEuler::static_forces(const Positions& positions, const std::ve
   ContactSystem touching;
   touching.rebuild(contacts, s.unknown_place);
   touching.add_forces(x, s.options.contact_stiffness, force);
+  s.touching(trims, trim_contacts).add_forces(trims, x, s.options.contact_stiffness, force);
   for (int i = 0; i < s.system.nodes(); ++i) force[i] += s.nodal_force(i, Vec3::Zero());
   return permuted(force, s.unknown_place);
 }
 
-std::vector<double> BackwardEuler::contact_forces(const Positions& positions,
-                                                  const std::vector<Contact>& contacts) const {
+std::vector<double> BackwardEuler::contact_forces(const Positions& positions, const std::vector<Contact>& contacts,
+                                                  const std::vector<RigidState>& trim_states,
+                                                  const std::vector<TrimContact>& trim_contacts) const {
   const Implementation& s = *implementation_;
   ContactSystem touching;
   touching.rebuild(contacts, s.system.place());
   std::vector<double> magnitude(positions.size(), 0.0);
-  touching.add_force_magnitudes(permuted(positions, s.system.order()), s.options.contact_stiffness, magnitude);
+  const Positions nodes = permuted(positions, s.system.order());
+  touching.add_force_magnitudes(nodes, s.options.contact_stiffness, magnitude);
+  if (!trim_contacts.empty()) {
+    const auto [trims, x, still] = s.with_trims(nodes, Positions(nodes.size(), Vec3::Zero()), trim_states);
+    s.touching(trims, trim_contacts).add_force_magnitudes(trims, x, s.options.contact_stiffness, magnitude);
+  }
   std::vector<double> in_cloth_order(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) in_cloth_order[i] = magnitude[s.system.place()[i]];
   return in_cloth_order;

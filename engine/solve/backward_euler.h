@@ -7,6 +7,7 @@
 #include "engine/report.h"
 #include "engine/scene/solver_options.h"
 #include "engine/solve/trimmings.h"
+#include "engine/terms/trim_contact.h"
 
 #include <memory>
 
@@ -39,7 +40,7 @@ struct StepTimes {
   double line_search = 0;   ///< the residual at trial points
 };
 
-/// Energies by term [J]; tension: of elastics and drawcords; attachment: of trims' springs;
+/// Energies by term [J]; tension: of elastics, drawcords and tapes; attachment: of trims' springs;
 /// gravity and kinetic with the trims' share.
 struct Energies {
   double membrane = 0, bending = 0, tension = 0, attachment = 0, gravity = 0, contact = 0, kinetic = 0;
@@ -64,22 +65,28 @@ class BackwardEuler {
   /// before). Accepted, it sets `state` and drags the contacts' friction anchors along; otherwise both stay untouched
   /// and the caller splits the time. It is accepted when an iterate's residual is below options.newton_tolerance. An
   /// iteration that can't lower the residual is divergence, unless the residual is already below the tolerance and
-  /// below a hundredth of a step's weight (perfect rest can't be improved, and is not divergence).
+  /// below a hundredth of a step's weight (perfect rest can't be improved, and is not divergence). `trim_contacts`:
+  /// those of the rigid trims, treated alike; null for none.
   StepOutcome step(State& state, double h, double stiffness_factor, std::vector<Contact>& contacts,
-                   const Kinematic& kinematic, StepTimes& times);
+                   const Kinematic& kinematic, StepTimes& times, std::vector<TrimContact>* trim_contacts = nullptr);
 
   const std::vector<double>& masses() const;  ///< lumped, per vertex [kg]
   Energies energies(const State& state, const std::vector<Contact>& contacts) const;
   /// What each static term and gravity store at these positions; a new term of StaticSystem is in it by itself. Where
-  /// there are elastics, drawcords or trims, `tension` and `attachment` follow, and gravity has the trims' share.
-  std::vector<TermEnergy> energies_by_term(const Positions& x, const std::vector<RigidState>& trims = {}) const;
+  /// there are elastics, drawcords or trims, `tension`, `attachment` and `trim_contact` follow, and gravity has the
+  /// trims' share.
+  std::vector<TermEnergy> energies_by_term(const Positions& x, const std::vector<RigidState>& trims = {},
+                                           const std::vector<TrimContact>& trim_contacts = {}) const;
   std::vector<double> kinetic_energy(const State& state) const;  ///< per vertex, then per trim [J]
   /// Net force of all terms at rest, gravity and contacts (with friction) included, on every vertex, held ones too [N].
   /// Those of the trims follow, two each: the force on the centre [N], and the torque over RigidBody::gyration [N].
   Positions static_forces(const Positions& x, const std::vector<Contact>& contacts,
-                          const std::vector<RigidState>& trims = {}) const;
+                          const std::vector<RigidState>& trims = {},
+                          const std::vector<TrimContact>& trim_contacts = {}) const;
   /// Per vertex, the sum of the magnitudes of its shares of contact forces [N].
-  std::vector<double> contact_forces(const Positions& x, const std::vector<Contact>& contacts) const;
+  std::vector<double> contact_forces(const Positions& x, const std::vector<Contact>& contacts,
+                                     const std::vector<RigidState>& trims = {},
+                                     const std::vector<TrimContact>& trim_contacts = {}) const;
 
  private:
   struct Implementation;

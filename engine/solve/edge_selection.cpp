@@ -74,6 +74,17 @@ std::vector<FlatEdge> selected_edges(const Selection& select, const Garment& gar
   return edges;
 }
 
+std::vector<FlatEdge> edges_along(const std::vector<int>& vertices, const Cloth& sewn) {
+  const EdgeLengths lengths = flat_lengths(sewn);
+  std::vector<FlatEdge> edges;
+  for (std::size_t k = 1; k < vertices.size(); ++k) {
+    const auto found = lengths.find(std::minmax(vertices[k - 1], vertices[k]));
+    if (found != lengths.end())
+      edges.push_back({{vertices[k - 1], vertices[k]}, found->second.sum / found->second.triangles});
+  }
+  return edges;
+}
+
 std::vector<std::vector<FlatEdge>> connected_chains(const std::vector<FlatEdge>& edges) {
   std::map<int, std::vector<std::size_t>> at_vertex;
   for (std::size_t e = 0; e < edges.size(); ++e)

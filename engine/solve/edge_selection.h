@@ -21,6 +21,9 @@ struct FlatEdge {
 /// Throws InputError (`vertex_out_of_range`) as pinned_vertices().
 std::vector<FlatEdge> selected_edges(const Selection& select, const Garment& garment, int index, const Cloth& sewn);
 
+/// The edges between neighbours in a list of the cloth's vertices; pairs that are no edge of the mesh are passed over.
+std::vector<FlatEdge> edges_along(const std::vector<int>& vertices, const Cloth& sewn);
+
 /// The edges' connected chains, in the order of their first edges.
 std::vector<std::vector<FlatEdge>> connected_chains(const std::vector<FlatEdge>& edges);
 

@@ -1,9 +1,8 @@
 #include "engine/solve/place_trims.h"
 
-#include "engine/contact/collision_mesh.h"
-#include "engine/geometry/primitive_solids.h"
 #include "engine/mesh/pattern_pointer.h"
 #include "engine/scene/problem.h"
+#include "engine/solve/panel_point.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -15,36 +14,6 @@ namespace toile {
 namespace {
 
 constexpr double kHoleSpacing = 1.0 / 6;  // of a diameter, from the button's middle
-
-struct PanelPoint {
-  std::size_t triangle;
-  std::array<double, 3> weights;
-};
-
-/// The triangle of the panel that holds a flat point, the one that holds it best where edges round.
-std::optional<PanelPoint> find_on_panel(const Cloth& cloth, int panel, const Vec2& at) {
-  std::optional<PanelPoint> best;
-  double inside = -1e-9;
-  for (std::size_t t = 0; t < cloth.triangles.size(); ++t) {
-    if (cloth.triangle_panel[t] != panel) continue;
-    const auto& f = cloth.flat[t];
-    Mat2 edges;
-    edges << f[1] - f[0], f[2] - f[0];
-    const Vec2 st = edges.inverse() * (at - f[0]);
-    const std::array<double, 3> weights = {1 - st.x() - st.y(), st.x(), st.y()};
-    const double least = *std::min_element(weights.begin(), weights.end());
-    if (least <= inside) continue;
-    inside = least;
-    best = PanelPoint{t, weights};
-  }
-  return best;
-}
-
-Vec3 position(const Cloth& cloth, const PanelPoint& p) {
-  Vec3 x = Vec3::Zero();
-  for (std::size_t c = 0; c < 3; ++c) x += p.weights[c] * cloth.x[cloth.triangles[p.triangle][c]];
-  return x;
-}
 
 /// The isometry nearest to how the flat pattern lies in space: columns are the images of u and v.
 Eigen::Matrix<double, 3, 2> frame(const Cloth& cloth, std::size_t triangle) {
@@ -92,6 +61,8 @@ void place_trim(const Trim& trim, const std::vector<Hole>& holes, double spacing
   const double first_depth = 0.5 * (button.thickness + spacing);
   RigidTrim& placed = trimmings.trims.emplace_back();
   placed.body = disc_body(button.mass, button.diameter, button.thickness);
+  placed.shape = disc_shape(button.diameter, button.thickness);
+  placed.friction = trim.friction;
   placed.start.center = position(cloth, holes[0].point) + first_depth * normal;
   placed.start.orientation = Eigen::Quaterniond(axes).normalized();
 
@@ -121,33 +92,25 @@ void place_trims(const Scene& scene, const Cloth& sewn, Trimmings& trimmings) {
     for (std::size_t k = 0; k < scene.garments[g].trims.size(); ++k) {
       const Trim& trim = scene.garments[g].trims[k];
       std::vector<Hole> holes;
-      double spacing = scene.solver.contact_distance;
+      double spacing = 0;
       for (std::size_t h = 0; h < trim.holes.size(); ++h) {
         const std::string pointer = garment_pointer(g) + "/trims/" + std::to_string(k) + "/attach/" + std::to_string(h);
         const int panel = panel_index(sewn, g, trim.holes[h].panel);
         holes.push_back({panel, trim.holes[h].at, point_or_problem(sewn, panel, trim.holes[h].at, pointer), pointer});
-        const ClothPanel& cloth = sewn.panels[static_cast<std::size_t>(panel)];
-        if (!(scene.solver.contact_distance > 0))
-          spacing =
-              std::max(spacing, default_contact_distance(sewn.fabrics[static_cast<std::size_t>(cloth.fabric)].thickness,
-                                                         cloth.edge_length));
+        spacing = std::max(spacing, layer_spacing(scene.solver, sewn, panel));
       }
       place_trim(trim, holes, spacing, sewn, trimmings);
     }
 }
 
-void append_trims(const Scene& scene, const std::vector<RigidTrim>& trims, TriangleMesh& mesh) {
-  std::size_t next = 0;
-  for (const Garment& garment : scene.garments)
-    for (const Trim& trim : garment.trims) {
-      if (next == trims.size()) return;
-      const RigidState& at = trims[next++].start;
-      const Vec3 half = 0.5 * trim.button.thickness * Vec3::UnitZ();
-      const TriangleMesh disc = make_solid(CylinderBody{-half, half, 0.5 * trim.button.diameter})->surface();
-      const int base = static_cast<int>(mesh.vertices.size());
-      for (const Vec3& v : disc.vertices) mesh.vertices.push_back(at.center + at.orientation * v);
-      for (const Triangle& t : disc.triangles) mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
-    }
+void append_trims(const std::vector<RigidTrim>& trims, TriangleMesh& mesh) {
+  for (const RigidTrim& trim : trims) {
+    if (!trim.shape.solid) continue;
+    const TriangleMesh surface = trim.shape.solid->surface();
+    const int base = static_cast<int>(mesh.vertices.size());
+    for (const Vec3& v : surface.vertices) mesh.vertices.push_back(trim.start.center + trim.start.orientation * v);
+    for (const Triangle& t : surface.triangles) mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+  }
 }
 
 }  // namespace toile

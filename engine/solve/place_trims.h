@@ -13,7 +13,7 @@ namespace toile {
 /// Throws InputError (`trim_off_panel`) at the place whose hole, or whose springs, lie outside the panel.
 void place_trims(const Scene& scene, const Cloth& sewn, Trimmings& trimmings);
 
-/// Appends the trims as they look to a mesh, for pictures. `trims` as place_trims() ordered them.
-void append_trims(const Scene& scene, const std::vector<RigidTrim>& trims, TriangleMesh& mesh);
+/// Appends the trims as they look to a mesh, for pictures.
+void append_trims(const std::vector<RigidTrim>& trims, TriangleMesh& mesh);
 
 }  // namespace toile

@@ -22,6 +22,12 @@ inline RigidBody disc_body(double mass, double diameter, double thickness) {
   return {mass, {radial, radial, mass * diameter * diameter / 8}};
 }
 
+/// A box of even density.
+inline RigidBody box_body(double mass, const Vec3& size) {
+  const Vec3 squares = size.cwiseAbs2();
+  return {mass, mass / 12 * (squares.sum() - squares.array()).matrix()};
+}
+
 struct RigidState {
   Vec3 center = Vec3::Zero();                                       ///< [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< body frame to world, of length one

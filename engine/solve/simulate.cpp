@@ -7,6 +7,7 @@
 #include "engine/solve/rest.h"
 #include "engine/solve/time_step.h"
 #include "engine/solve/touching.h"
+#include "engine/solve/trim_touching.h"
 
 #include <algorithm>
 #include <chrono>
@@ -64,6 +65,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   const SolverOptions& options = scene.options;
   Simulation result;
   Touching touching(cloth, touching_options(scene));
+  TrimTouching trim_touching(cloth, scene.trimmings.trims, touching_options(scene));
   Cloth clamped = cloth;
   std::vector<HeldVertex> held_points = scene.held;
   const std::vector<HeldVertex> clamp_points = add_clamps(clamped, scene.held);
@@ -87,12 +89,14 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
     const Clock::time_point begun = Clock::now();
     const double h = time_step.h();
     std::vector<Contact> contacts = touching.detect(state.x);
+    std::vector<TrimContact> trim_contacts = trim_touching.detect(state.x, state.trims);
     result.times.collisions += seconds_since(begun);
     for (const HeldVertex& held : held_points) kinematic.target[held.vertex] = position_at(held, t + h);
 
     const Positions before = state.x;
     const std::vector<RigidState> trims_before = state.trims;
-    const StepOutcome outcome = solver.step(state, h, relaxation_factor(t, options), contacts, kinematic, step_times);
+    const StepOutcome outcome =
+        solver.step(state, h, relaxation_factor(t, options), contacts, kinematic, step_times, &trim_contacts);
     result.newton_iterations += outcome.newton_iterations;
     result.cg_iterations += outcome.cg_iterations;
     if (outcome.accepted && finite(state.x) && finite(state.trims)) {
@@ -101,6 +105,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
         for (std::size_t v = 0; v < n; ++v) state.v[v] = (state.x[v] - before[v]) / h;
       result.limited_vertices += limited;
       touching.remember(contacts, state.x);
+      trim_touching.remember(trim_contacts, state.x, state.trims);
       if (relaxing(t, options)) stop(state);
       t += h;
       ++result.steps;
@@ -118,7 +123,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
       if (quiet && t >= moving_until && options.rest_residual > 0) {
         // The check costs about half a step, so it is not made at each one.
         if (t >= next_force_check) {
-          balanced = rms_residual(solver.static_forces(state.x, contacts, state.trims), solver.masses(),
+          balanced = rms_residual(solver.static_forces(state.x, contacts, state.trims, trim_contacts), solver.masses(),
                                   kinematic.held) < options.rest_residual;
           next_force_check = t + kForceCheckInterval;
         }
@@ -150,11 +155,12 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   result.times.line_search = step_times.line_search;
   for (double e : energy) result.kinetic_energy += e;
   result.contacts = touching.detect(state.x);
-  result.net_force = solver.static_forces(state.x, result.contacts, state.trims);
+  result.trim_contacts = trim_touching.detect(state.x, state.trims);
+  result.net_force = solver.static_forces(state.x, result.contacts, state.trims, result.trim_contacts);
   result.trims = state.trims;
-  result.contact_force = solver.contact_forces(state.x, result.contacts);
+  result.contact_force = solver.contact_forces(state.x, result.contacts, state.trims, result.trim_contacts);
   result.mass = solver.masses();
-  result.energies = solver.energies_by_term(state.x, state.trims);
+  result.energies = solver.energies_by_term(state.x, state.trims, result.trim_contacts);
   result.cloth_contacts = touching.cloth_contacts();
   result.contact_distance = touching.contact_distance();
   result.net_force.resize(vertices);

@@ -10,6 +10,7 @@
 #include "engine/solve/pin_motion.h"
 #include "engine/solve/touching.h"
 #include "engine/solve/trimmings.h"
+#include "engine/terms/trim_contact.h"
 
 #include <functional>
 #include <string>
@@ -47,6 +48,7 @@ struct Simulation {
   std::vector<double> mass;              ///< lumped [kg]
   std::vector<RigidState> trims;         ///< at the end
   std::vector<double> contact_force;     ///< per vertex, sum of contact force magnitudes [N]
+  std::vector<TrimContact> trim_contacts = {};  ///< at the end, friction included
 };
 
 struct SimulationScene {

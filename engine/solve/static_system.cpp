@@ -61,16 +61,21 @@ StaticSystem::StaticSystem(const Cloth& cloth, const Trimmings& trimmings)
       membrane_(membrane_stencils(cloth)),
       bending_(bending_stencils(cloth)),
       trims_(trimmings, place_) {
-  const std::vector<double> mass = lumped_masses(cloth);
+  std::vector<double> mass = lumped_masses(cloth);
+  for (const AddedMass& added : trimmings.masses) mass[added.vertex] += added.mass;
   for (int old : order_) mass_.push_back(mass[old]);
   membrane_colors_ = arrange(membrane_, place_);
   bending_colors_ = arrange(bending_.stencils, place_);
   if (!bending_.laws.empty()) reorder(bending_.laws, bending_colors_.order);
 
   const std::vector<int> membrane_nodes = node_list(membrane_), bending_nodes = node_list(bending_.stencils);
-  const std::array<BlockMatrix::Stencils, 3> stencils = {{{std::span<const int>(membrane_nodes), 3},
+  std::vector<int> tape_nodes;
+  for (const TapeStencil& tape : trimmings.tapes)
+    for (int node : tape.nodes) tape_nodes.push_back(place_[node]);
+  const std::array<BlockMatrix::Stencils, 4> stencils = {{{std::span<const int>(membrane_nodes), 3},
                                                           {std::span<const int>(bending_nodes), 6},
-                                                          {std::span<const int>(trims_.stencil_nodes()), 5}}};
+                                                          {std::span<const int>(trims_.stencil_nodes()), 5},
+                                                          {std::span<const int>(tape_nodes), 3}}};
   topology_ = BlockMatrix(nodes() + 2 * trims_.trims(), stencils);
   trims_.find_slots(topology_);
   for (const MembraneStencil& s : membrane_) {

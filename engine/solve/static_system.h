@@ -17,7 +17,7 @@ namespace toile {
 class StaticSystem {
  public:
   /// Throws std::invalid_argument for a cloth with a triangle of no flat area.
-  /// Rigid trims add their nodes after the cloth's, and what their springs couple.
+  /// Rigid trims add their nodes after the cloth's, and what their springs couple; zippers their tapes' mass.
   explicit StaticSystem(const Cloth& cloth, const Trimmings& trimmings = {});
 
   int nodes() const { return static_cast<int>(mass_.size()); }  ///< of the cloth

@@ -2,6 +2,7 @@
 
 #include "engine/solve/backward_euler.h"
 #include "engine/solve/clamps.h"
+#include "engine/terms/bending.h"
 
 #include <algorithm>
 
@@ -20,10 +21,23 @@ Cloth with_clamps(const Cloth& cloth, const Positions& start, const std::vector<
   return clamped;
 }
 
+std::vector<FrictionMoment> friction_moments(const Cloth& clamped) {
+  std::vector<FrictionMoment> moments;
+  const BendingStencils bending = bending_stencils(clamped);
+  for (std::size_t k = 0; k < bending.laws.size(); ++k) {
+    if (!(bending.laws[k].onset > 0)) continue;
+    const BendingStencil& s = bending.stencils[k];
+    StencilPoints<6> x;
+    for (std::size_t i = 0; i < 6; ++i) x[i] = clamped.x[s.nodes[i]];
+    moments.push_back({s.nodes, bending_friction_arm(s, bending.laws[k], x)});
+  }
+  return moments;
+}
+
 }  // namespace
 
 StillCloth still_cloth(const Cloth& cloth, const Positions& start, const SimulationScene& scene) {
-  const Cloth clamped = with_clamps(cloth, start, scene.held);
+  Cloth clamped = with_clamps(cloth, start, scene.held);
   const BackwardEuler solver(clamped, scene.options, scene.trimmings);
   Touching touching(cloth, touching_options(scene));
   StillCloth still;
@@ -33,6 +47,8 @@ StillCloth still_cloth(const Cloth& cloth, const Positions& start, const Simulat
   still.contact_distance = touching.contact_distance();
   still.force = solver.static_forces(clamped.x, {});
   still.energies = solver.energies_by_term(clamped.x);
+  clamped.fabrics = cloth.fabrics;
+  still.friction_moments = friction_moments(clamped);
   still.mass.resize(cloth.x.size());
   still.force.resize(cloth.x.size());
   return still;

@@ -2,6 +2,7 @@
 // Forces and energies of a cloth that is given, not simulated: every velocity is zero, friction is unknown.
 
 #include "engine/contact/contact.h"
+#include "engine/quality/admissible_forces.h"
 #include "engine/solve/simulate.h"
 
 namespace toile {
@@ -13,11 +14,13 @@ struct StillCloth {
   std::vector<double> contact_distance;  ///< per vertex, where cloth repels cloth [m]
   Positions force;                       ///< of all but contacts, gravity included [N]
   std::vector<TermEnergy> energies;
+  std::vector<FrictionMoment> friction_moments;  ///< of bending; their nodes may lie beyond the cloth's (clamps')
 };
 
 /// Of a sewn cloth at its positions, with the terms, options and body of a simulation. `start`: where its vertices were
 /// at the start of the drape, whose planes clamps hold (solve/clamps.h), where key frames leave them. The friction of
-/// bending is left out: positions do not tell how the cloth was bent before.
+/// bending is not among the forces, since positions do not tell how the cloth was bent before: what it may do is in
+/// friction_moments.
 StillCloth still_cloth(const Cloth& cloth, const Positions& start, const SimulationScene& scene);
 
 }  // namespace toile

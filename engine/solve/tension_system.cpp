@@ -8,6 +8,9 @@ namespace toile {
 namespace {
 
 StencilPoints<2> gather(const Positions& x, const std::array<int, 2>& nodes) { return {x[nodes[0]], x[nodes[1]]}; }
+StencilPoints<3> gather(const Positions& x, const std::array<int, 3>& nodes) {
+  return {x[nodes[0]], x[nodes[1]], x[nodes[2]]};
+}
 
 void pull_together(const Vec3& on_first, const std::array<int, 2>& nodes, Positions& force) {
   force[nodes[0]] += on_first;
@@ -24,13 +27,19 @@ void add_edge_block(const Mat3& block, const std::array<int, 2>& nodes, const st
 }  // namespace
 
 TensionSystem::TensionSystem(const Trimmings& trimmings, const std::vector<int>& place, const BlockMatrix& topology)
-    : elastics_(trimmings.elastics) {
+    : elastics_(trimmings.elastics), tapes_(trimmings.tapes) {
   const auto slots_of = [&](const std::array<int, 2>& n) -> std::array<int, 2> {
     return {topology.slot(n[0], n[1]), topology.slot(n[1], n[0])};
   };
   for (ElasticStencil& s : elastics_) {
     for (int& node : s.nodes) node = place[node];
     elastic_slots_.push_back(slots_of(s.nodes));
+  }
+  for (TapeStencil& s : tapes_) {
+    for (int& node : s.nodes) node = place[node];
+    std::array<int, 9>& slots = tape_slots_.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) slots[3 * i + j] = topology.slot(s.nodes[i], s.nodes[j]);
   }
   std::vector<std::vector<int>> cord_nodes;
   for (const DrawcordStencil& stencil : trimmings.drawcords) {
@@ -58,6 +67,11 @@ void TensionSystem::add_forces(const Positions& x, const Positions& v, double fa
   for (const ElasticStencil& s : elastics_)
     pull_together(elastic_response(s, gather(x, s.nodes), gather(v, s.nodes), {0, 0, fabric_factor}).force, s.nodes,
                   force);
+  for (const TapeStencil& s : tapes_) {
+    const StencilPoints<3> at = gather(x, s.nodes);
+    const StencilVector<3> g = tape_gradient(s, at) + tape_dissipation_gradient(s, at, gather(v, s.nodes));
+    for (int i = 0; i < 3; ++i) force[s.nodes[i]] -= fabric_factor * g.segment<3>(3 * i);
+  }
   for (const Cord& cord : cords_) {
     const double tension = fabric_factor * drawcord_pull(cord.stencil, x, &v).tension;
     if (tension == 0) continue;
@@ -73,6 +87,14 @@ void TensionSystem::add_forces_and_matrix(const Positions& x, const Positions& v
     const ElasticStencil& s = elastics_[k];
     const ElasticResponse r = elastic_response(s, gather(x, s.nodes), gather(v, s.nodes), weights);
     add_edge_block(r.block, s.nodes, elastic_slots_[k], fixed);
+  }
+  for (std::size_t k = 0; k < tapes_.size(); ++k) {
+    const StencilPoints<3> at = gather(x, tapes_[k].nodes);
+    const StencilMatrix<3> h = weights.fabric * (weights.stiffness * tape_hessian_psd(tapes_[k], at) +
+                                                 weights.dissipation * tape_dissipation_hessian(tapes_[k], at));
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        fixed.add(tape_slots_[k][3 * i + j], Eigen::Matrix3f(h.block<3, 3>(3 * i, 3 * j).cast<float>()));
   }
   std::vector<Eigen::Vector3f> parts;
   for (std::size_t k = 0; k < cords_.size(); ++k) {
@@ -98,6 +120,7 @@ void TensionSystem::add_forces_and_matrix(const Positions& x, const Positions& v
 double TensionSystem::energy(const Positions& x) const {
   double sum = 0;
   for (const ElasticStencil& s : elastics_) sum += elastic_energy(s, gather(x, s.nodes));
+  for (const TapeStencil& s : tapes_) sum += tape_energy(s, gather(x, s.nodes));
   for (const Cord& cord : cords_) sum += drawcord_energy(cord.stencil, x);
   return sum;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Elastics and drawcords in the solver's node order: their forces and their share of the system matrix.
+// Elastics, drawcords and tapes in the solver's node order: their forces and their share of the system matrix.
 
 #include "engine/linear/block_matrix.h"
 #include "engine/linear/rank_one_matrix.h"
@@ -10,7 +10,8 @@ namespace toile {
 /// Few stencils beside the cloth's, so they are summed one after another, in a fixed order.
 class TensionSystem {
  public:
-  /// `place` maps the cloth's vertices to the solver's nodes; `topology` has every edge of the mesh.
+  /// `place` maps the cloth's vertices to the solver's nodes; `topology` has every edge of the mesh and every pair of a
+  /// tape's stencils.
   TensionSystem(const Trimmings& trimmings, const std::vector<int>& place, const BlockMatrix& topology);
 
   /// Adds the forces, elastic and dissipative [N].
@@ -21,7 +22,7 @@ class TensionSystem {
   /// Null without drawcords.
   RankOneMatrix* wide() { return cords_.empty() ? nullptr : &wide_; }
 
-  bool any() const { return !elastics_.empty() || !cords_.empty(); }
+  bool any() const { return !elastics_.empty() || !cords_.empty() || !tapes_.empty(); }
   double energy(const Positions& x) const;  ///< [J]
 
  private:
@@ -33,6 +34,8 @@ class TensionSystem {
   };
   std::vector<ElasticStencil> elastics_;
   std::vector<std::array<int, 2>> elastic_slots_;
+  std::vector<TapeStencil> tapes_;
+  std::vector<std::array<int, 9>> tape_slots_;
   std::vector<Cord> cords_;
   RankOneMatrix wide_;
 };

@@ -41,10 +41,10 @@ class TrimSystem {
                 Positions& b) const;
 
   double energy(const Positions& x) const;  ///< of the springs [J]
+  Mat3 orientation(int trim, const Positions& x) const;
   const std::vector<RigidBody>& bodies() const { return bodies_; }
 
  private:
-  Mat3 orientation(int trim, const Positions& x) const;
   AttachmentState attachment(const AttachmentStencil& s, const Positions& x) const;
   std::array<int, 5> nodes_of(const AttachmentStencil& s) const;
 

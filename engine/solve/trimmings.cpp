@@ -4,6 +4,7 @@
 #include "engine/scene/problem.h"
 #include "engine/solve/edge_selection.h"
 #include "engine/solve/place_trims.h"
+#include "engine/solve/place_zippers.h"
 
 namespace toile {
 namespace {
@@ -41,6 +42,7 @@ Trimmings make_trimmings(const Scene& scene, const Cloth& sewn) {
     }
   }
   place_trims(scene, sewn, trimmings);
+  place_zippers(scene, sewn, trimmings);
   return trimmings;
 }
 

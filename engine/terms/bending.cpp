@@ -3,6 +3,7 @@
 #include "engine/geometry/dihedral.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <numbers>
@@ -131,6 +132,15 @@ StencilMatrix<6> bending_dissipation_hessian(const BendingStencil& s, const Sten
 
 Vec3 bending_curvature(const BendingStencil& s, const BendingLaw& law, const StencilPoints<6>& x) {
   return law.fit * angles_of(s, x, true).bent;
+}
+
+Eigen::Matrix<double, 18, 3> bending_friction_arm(const BendingStencil& s, const BendingLaw& law,
+                                                  const StencilPoints<6>& x) {
+  if (!(law.onset > 0)) return Eigen::Matrix<double, 18, 3>::Zero();
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(law.friction);
+  const Mat3 root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
+                    eigen.eigenvectors().transpose();
+  return -law.area * stacked(angles_of(s, x, true)).transpose() * law.fit.transpose() * root;
 }
 
 std::array<Vec3, 6> bending_force(const BendingStencil& s, const BendingLaw* law, const StencilPoints<6>& x,

@@ -64,6 +64,11 @@ StencilMatrix<6> bending_dissipation_hessian(const BendingStencil& s, const Sten
 /// Curvature (κ_uu, κ_vv, 2 κ_uv) [1/m] beyond the rest shape's.
 Vec3 bending_curvature(const BendingStencil& s, const BendingLaw& law, const StencilPoints<6>& x);
 
+/// What bending friction may do: forces [N] on the six nodes are arm · w with any |w| ≤ 1, w the friction moment over
+/// its yield surface: arm = −area ∇θ Cᵀ √P. Zero for a law without friction.
+Eigen::Matrix<double, 18, 3> bending_friction_arm(const BendingStencil& s, const BendingLaw& law,
+                                                  const StencilPoints<6>& x);
+
 /// Elastic and dissipative force at once. A hinge with a triangle under 1 µm high has no angle to speak of and answers
 /// with nothing (here and in bending_response).
 std::array<Vec3, 6> bending_force(const BendingStencil& s, const BendingLaw* law, const StencilPoints<6>& x,

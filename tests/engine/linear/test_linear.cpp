@@ -175,8 +175,9 @@ TEST(RankOneMatrix, JoinsTheSystemAsItsDenseSelf) {
     s.preconditioner.set(i, diagonal);
   }
   NodeVector x;
+  const std::array<RankOneMatrix*, 1> parts = {&wide};
   const CgOutcome outcome =
-      ConjugateGradient().solve(s.matrix, s.contact, s.preconditioner, s.right, 1e-6, 2000, x, &wide);
+      ConjugateGradient().solve(s.matrix, s.contact, s.preconditioner, s.right, 1e-6, 2000, x, parts);
   EXPECT_LT(outcome.relative_residual, 1e-6);
   const Eigen::VectorXd expected = s.dense.ldlt().solve(as_vector(s.right));
   EXPECT_LT((as_vector(x) - expected).norm(), 1e-3 * expected.norm());

@@ -92,7 +92,7 @@ TEST(AppendTrims, DrawsADiscAtItsPlace) {
   const Scene scene = buttoned();
   TriangleMesh mesh;
   const Trimmings trimmings = placed(scene);
-  append_trims(scene, trimmings.trims, mesh);
+  append_trims(trimmings.trims, mesh);
   ASSERT_FALSE(mesh.triangles.empty());
   const Button& button = scene.garments[0].trims[0].button;
   for (const Vec3& v : mesh.vertices) {
