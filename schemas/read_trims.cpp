@@ -49,23 +49,27 @@ void read_zippers(const json& document, const std::string& pointer, Garment& gar
   });
 }
 
+/// What an elastic and a drawcord have in common: the line that they run along, and how they resist a pull.
+template <typename Cord>
+Cord read_cord(const json& element, const Garment& garment, const std::string& pointer) {
+  Cord cord;
+  cord.select = read_selection(element, garment, pointer);
+  cord.stiffness = element.value("stiffness_N", cord.stiffness);
+  cord.damping = element.value("damping_s", cord.damping);
+  return cord;
+}
+
 }  // namespace
 
 void read_trims(const json& document, const std::string& pointer, Garment& garment) {
   for_each_element(document, "elastics", pointer, [&](const json& element, const std::string& here) {
-    Elastic elastic;
-    elastic.select = read_selection(element, garment, here);
+    Elastic elastic = read_cord<Elastic>(element, garment, here);
     elastic.length_factor = element.at("length_percent").get<double>() * 1e-2;
-    elastic.stiffness = element.value("stiffness_N", elastic.stiffness);
-    elastic.damping = element.value("damping_s", elastic.damping);
     garment.elastics.push_back(std::move(elastic));
   });
   for_each_element(document, "drawcords", pointer, [&](const json& element, const std::string& here) {
-    Drawcord cord;
-    cord.select = read_selection(element, garment, here);
+    Drawcord cord = read_cord<Drawcord>(element, garment, here);
     cord.length = element.at("length_mm").get<double>() * 1e-3;
-    cord.stiffness = element.value("stiffness_N", cord.stiffness);
-    cord.damping = element.value("damping_s", cord.damping);
     garment.drawcords.push_back(std::move(cord));
   });
   for_each_element(document, "trims", pointer, [&](const json& element, const std::string&) {
