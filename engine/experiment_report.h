@@ -30,6 +30,7 @@ struct CantileverReport {
   /// Peirce's c = (D / (areal density · g))^(1/3) [m]: half the overhang where the chord falls by 41.5° (exact to
   /// 0.02 % for an elastic strip); none where the overhang was given.
   std::optional<double> bending_length;
+  double drop = 0;  ///< of the end's middle below the edge [m]
 };
 
 struct UniaxialReport {

@@ -56,9 +56,8 @@ Fabric from_complete(const json& document, const std::string& pointer) {
   fabric.bending_damping = document.at("damping_s").at("bending").get<double>();
   fabric.woven = document.at("woven").get<bool>();
   if (document.contains("stretch_curve")) {
-    const json& curves = document["stretch_curve"];
-    apply_stretch_test({readings(curves, "warp"), readings(curves, "weft"), readings(curves, "bias")},
-                       document.at("poisson_ratio").get<double>(), child(pointer, "stretch_curve"), fabric);
+    apply_stretch_test(stretch_test(document), document.at("poisson_ratio").get<double>(),
+                       child(pointer, "stretch_curve"), fabric);
   }
   return fabric;
 }
@@ -78,6 +77,11 @@ std::optional<json> fabric_document(std::string_view name) {
   const std::string_view bytes = resource(std::string(kFolder) + std::string(name) + std::string(kEnding));
   if (bytes.empty()) return std::nullopt;
   return json::parse(bytes);
+}
+
+StretchTest stretch_test(const json& document) {
+  const json curves = document.value("stretch_curve", json::object());
+  return {readings(curves, "warp"), readings(curves, "weft"), readings(curves, "bias")};
 }
 
 Fabric read_fabric(const json& name_or_document, const std::string& pointer) {

@@ -50,6 +50,17 @@ int main(int argc, char** argv) {
                    "reaches")
       ->check(CLI::Range(1e-3, 50.0));
 
+  toile::FitFabricArguments fit;
+  CLI::App* fit_command = app.add_subcommand(
+      "fit-fabric",
+      "Finds the fabric of a scene from a laboratory's measurements, by repeating its experiments. Exit status: 0 "
+      "fitted, 2 bad input (the problem on stderr), 3 not fitted (no fabric is written, the report is), 4 cancelled.");
+  fit_command->add_option("measurements", fit.measurements, "measurements.schema.json")->required();
+  fit_command->add_option("--out", fit.out, "Write the fabric to this file; stdout unless given");
+  fit_command->add_option("--report", fit.report, "Write misfit and standard errors, JSON, to this file");
+  fit_command->add_option("--threads", fit.threads, "0: all cores; the result is the same on any number")
+      ->check(CLI::Range(0, 1024));
+
   toile::RenderArguments render;
   CLI::App* render_command = app.add_subcommand("render", "Draws another picture of a drape that is done.");
   render_command->add_option("--job", render.job, "Folder that `toile drape --out` wrote")->required();
@@ -93,6 +104,7 @@ int main(int argc, char** argv) {
   try {
     if (drape_command->parsed()) return toile::run_drape(drape);
     if (check_command->parsed()) return toile::run_check(check);
+    if (fit_command->parsed()) return toile::run_fit_fabric(fit);
     if (render_command->parsed()) return toile::run_render(render);
     if (serve_command->parsed()) return toile::run_serve(serve);
     if (health_command->parsed()) return toile::run_health(health);

@@ -2,6 +2,7 @@
 
 #include "engine/experiments/part_monitor.h"
 #include "engine/experiments/specimen.h"
+#include "engine/scene/fabric_measurements.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +17,6 @@ constexpr int kMostTrials = 8;
 constexpr double kShortest = 2e-3, kLongest = 1;  // overhang [m]
 constexpr double kCells = 12;                     // edges along the overhang
 
-double along(const Directional& d, Direction direction) {
-  return direction == Direction::warp ? d.warp : direction == Direction::weft ? d.weft : d.bias;
-}
-
 CantileverResult bend(const Cantilever& experiment, double overhang, int threads, Monitor& monitor) {
   const double edge = experiment.edge_length > 0 ? experiment.edge_length : overhang / kCells;
   const FlatMesh mesh = strip_mesh(overhang, experiment.width, edge);
@@ -33,6 +30,7 @@ CantileverResult bend(const Cantilever& experiment, double overhang, int threads
   const std::vector<int> last = vertices_at(mesh, overhang);
   for (const int v : last) end += result.drape.cloth.x[v] / static_cast<double>(last.size());
   result.report.angle = std::atan2(-end.y(), end.x());
+  result.report.drop = -end.y();
   return result;
 }
 

@@ -21,6 +21,14 @@ struct CheckArguments {
 };
 int run_check(const CheckArguments& arguments);
 
+struct FitFabricArguments {
+  std::string measurements;
+  std::string out;     ///< file of the fabric; empty: stdout
+  std::string report;  ///< file of the misfit; empty: none
+  int threads = 0;
+};
+int run_fit_fabric(const FitFabricArguments& arguments);
+
 struct RenderArguments {
   std::string job, view = "front", overlay = "fabric", out;
   int width = 0, height = 0;  ///< pixels; 0: as the scene had it
