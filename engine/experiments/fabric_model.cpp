@@ -10,6 +10,8 @@ using Kind = FitParameter::Kind;
 
 constexpr double kLeastModulus = 0.1, kLeastShear = 0.01, kMostModulus = 1e6;  // [N/m]
 constexpr double kLeastBending = 1e-9, kMostBending = 0.1;                     // [N·m]
+constexpr double kFromStart =
+    20;  // factor from a bending stiffness's start to its bounds: far stiffer strips come to rest late
 constexpr double kLeastFactor = 0.05, kMostFactor = 3;
 constexpr double kWeightlessLoop = 0.4243, kLimpLoop = 0.5;
 constexpr double kHalfLimpWeight = 1300;  // areal density · g · length³ / D of a loop half way between those two
@@ -165,7 +167,8 @@ std::vector<FitParameter> bending_parameters(const FabricMeasurements& m) {
   for (std::size_t d = 0; d < m.bending.size(); ++d) {
     if (!m.bending[d] && !m.cantilevers[d] && !m.loops[d]) continue;
     const double start = std::clamp(start_of_bending(m, d), 2 * kLeastBending, 0.5 * kMostBending);
-    parameters.push_back({Kind::bending, static_cast<Direction>(d), 0, start, kLeastBending, kMostBending});
+    parameters.push_back({Kind::bending, static_cast<Direction>(d), 0, start,
+                          std::max(start / kFromStart, kLeastBending), std::min(start * kFromStart, kMostBending)});
   }
   return parameters;
 }

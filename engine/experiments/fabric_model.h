@@ -8,7 +8,7 @@
 
 namespace toile {
 
-/// One number to be found; its range is that of fabric.schema.json.
+/// One number to be found, within the range of fabric.schema.json.
 struct FitParameter {
   enum class Kind { modulus, curve_factor, bending };  ///< C or G [N/m]; a factor; D [N·m]
   Kind kind;
@@ -39,7 +39,7 @@ FabricModel with_stretch(const FabricMeasurements& measurements, const std::vect
 
 /// Of the directions that were measured. Starts: D as measured; Peirce's D = ρ g L³ cos(θ/2)/(8 tan θ) of a cantilever
 /// [Peirce 1930]; for a loop whose height exceeds the weightless 0.4243 L by the share q of what is possible,
-/// ρ g L³/D = 1300 q/(1 − q), which is right within a factor of 1.5.
+/// ρ g L³/D = 1300 q/(1 − q), which is right within a factor of 1.5. Bounds: a factor of 20 from there.
 std::vector<FitParameter> bending_parameters(const FabricMeasurements& measurements);
 
 /// `model` with these values of the bending parameters. Where warp and weft were measured and bias was not, it is their

@@ -25,13 +25,13 @@ class Laboratory {
 
   /// Of every specimen at every point.
   std::vector<std::vector<Readings>> test(const std::vector<Numbers>& points, const std::vector<SpecimenMesh>& meshes) {
-    run_missing(points, meshes);
-    std::vector<std::vector<Readings>> found;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      found.emplace_back();
-      for (std::size_t s = 0; s < problem_.specimens.size(); ++s)
-        found.back().push_back(known_[s][static_cast<std::size_t>(meshes[i])].at(key(s, points[i])));
-    }
+    std::vector<std::optional<Fabric>> fabrics;
+    for (const Numbers& point : points) fabrics.push_back(fabric(point));
+    run_missing(points, meshes, fabrics);
+    std::vector<std::vector<Readings>> found(points.size(), std::vector<Readings>(problem_.specimens.size()));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t s = 0; fabrics[i] && s < problem_.specimens.size(); ++s)
+        found[i][s] = known_[s][static_cast<std::size_t>(meshes[i])].at(key(s, points[i]));
     return found;
   }
 
@@ -62,16 +62,15 @@ class Laboratory {
     return values;
   }
 
-  void run_missing(const std::vector<Numbers>& points, const std::vector<SpecimenMesh>& meshes) {
+  void run_missing(const std::vector<Numbers>& points, const std::vector<SpecimenMesh>& meshes,
+                   const std::vector<std::optional<Fabric>>& fabrics) {
     std::vector<Task> tasks;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::optional<Fabric> here = fabric(points[i]);
-      for (std::size_t s = 0; s < problem_.specimens.size(); ++s) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t s = 0; fabrics[i] && s < problem_.specimens.size(); ++s) {
         const auto [place, is_new] =
             known_[s][static_cast<std::size_t>(meshes[i])].try_emplace(key(s, points[i]), std::nullopt);
-        if (is_new && here) tasks.push_back({s, meshes[i], *here, &place->second});
+        if (is_new) tasks.push_back({s, meshes[i], *fabrics[i], &place->second});
       }
-    }
     simulations_ += static_cast<long>(tasks.size());
     parallel_for_each(static_cast<int>(tasks.size()), 1, [&](int i) {
       const Task& task = tasks[static_cast<std::size_t>(i)];

@@ -22,7 +22,9 @@ std::optional<std::vector<double>> test_again(const MeasuredTest& test, Directio
                                               SpecimenMesh mesh, Monitor& monitor);
 
 /// The same on an ever finer mesh, by the meshes' order of convergence, which is 1 (free edges, clamps, and yarns that
-/// end in a grip): 2 fine − coarse.
+/// end in a grip): 2 fine − coarse. Against closed forms and the elastica: pulls along warp and weft 0.1 %; cantilevers
+/// 0.2° at 41.5°, which are 1 % of D; loops 0.1 % of the height, which are up to 9 % of D. Pulls on the bias: 2 %, as
+/// sequences of meshes up to 40 edges wide differ.
 std::vector<double> extrapolated(const std::vector<double>& coarse, const std::vector<double>& fine);
 
 }  // namespace toile

@@ -73,6 +73,52 @@ TEST_F(CommandLine, DoesAnExperimentAndReportsWhatItMeasured) {
   EXPECT_EQ(status, 2);
 }
 
+TEST_F(CommandLine, FitsAFabricThatASceneTakes) {
+  std::ofstream(folder_ / "lab.json")
+      << R"({"name":"cloth","area_density_g_m2":150,"bending_uN_m":{"warp":4,"weft":3},"uniaxial":{"warp":)"
+      << R"({"length_mm":100,"width_mm":50,"readings":[{"strain_percent":1,"force_N":1}]}}})";
+  int status = -1;
+  const std::string table = toile("fit-fabric lab.json --out fabric.json --report fit.json", &status);
+  EXPECT_EQ(status, 0) << table;
+  EXPECT_THAT(table, testing::HasSubstr("/uniaxial/warp/readings/0"));
+  EXPECT_THAT(table, testing::HasSubstr("shear_not_measured"));
+  const json fabric = json::parse(std::ifstream(folder_ / "fabric.json"), nullptr, false);
+  const json fit = json::parse(std::ifstream(folder_ / "fit.json"), nullptr, false);
+  EXPECT_NEAR(fabric["stretch_N_m"]["warp"], 20 / (0.01 * 1.005 * 1.01 * 0.96), 20) << "1 N on 50 mm, nu = 0.2";
+  EXPECT_NEAR(fabric["bending_uN_m"]["bias"], 3.5, 1e-3);
+  EXPECT_EQ(fit["status"], "fitted");
+  EXPECT_GT(fit["simulations"], 2);
+  std::ofstream(folder_ / "pull.json")
+      << R"({"experiment":{"kind":"uniaxial","strains_percent":[1],"edge_length_mm":10,)"
+      << R"("length_mm":100,"fabric":)" << fabric << "}}";
+  toile("drape pull.json --out out", &status);
+  ASSERT_EQ(status, 0);
+  EXPECT_NEAR(report()["experiment"]["curve"][0]["force_N_m"], 20, 0.1);
+  shell("cd " + folder_.path() + " && " TOILE_BINARY " fit-fabric lab.json > stdout.json 2> /dev/null", &status);
+  EXPECT_EQ(json::parse(std::ifstream(folder_ / "stdout.json"), nullptr, false), fabric)
+      << "stdout is the fabric alone";
+}
+
+TEST_F(CommandLine, FitsNoFabricToWhatNoneAnswersTo) {
+  // One modulus for a strip that gets ten times as stiff.
+  std::ofstream(folder_ / "lab.json")
+      << R"({"area_density_g_m2":150,"uniaxial":{"warp":{"model":"constant","length_mm":100,"width_mm":50,)"
+      << R"("readings":[{"strain_percent":1,"force_N":0.1},{"strain_percent":2,"force_N":2}]}}})";
+  int status = -1;
+  const std::string output = toile("fit-fabric lab.json --out fabric.json --report fit.json", &status);
+  EXPECT_EQ(status, 3) << output;
+  EXPECT_THAT(output, testing::HasSubstr("misfit_too_large"));
+  EXPECT_FALSE(fs::exists(folder_ / "fabric.json"));
+  EXPECT_EQ(json::parse(std::ifstream(folder_ / "fit.json"), nullptr, false)["status"], "not_fitted");
+
+  std::ofstream(folder_ / "lab.json") << R"({"area_density_g_m2":150,"bending":{"warp":4}})";
+  const json problem = json::parse(toile("fit-fabric lab.json --out fabric.json", &status), nullptr, false);
+  EXPECT_EQ(status, 2);
+  EXPECT_EQ(problem["errors"][0]["pointer"], "/bending");
+  EXPECT_THAT(toile("fit-fabric absent.json", &status), testing::HasSubstr("file_not_found"));
+  EXPECT_EQ(status, 2);
+}
+
 TEST_F(CommandLine, TheNumberOfThreadsDoesNotChangeTheResult) {
   int status = -1;
   const std::string file = scene("standard", R"(,"solver":{"simulated_time_limit_s":0.05})");
