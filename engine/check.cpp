@@ -12,6 +12,7 @@
 #include "engine/scene/check.h"
 #include "engine/solve/still_cloth.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace toile {
@@ -36,6 +37,9 @@ std::vector<int> attached_vertices(const Scene& scene, const Cloth& sewn) {
 std::vector<double> measure_equilibrium(const Cloth& sewn, const Positions& start, const SimulationScene& scene,
                                         const CheckOptions& options, Report& report) {
   const StillCloth still = still_cloth(sewn, start, scene);
+  if (!still.trims_rest)
+    report.warnings.emplace_back(
+        "trims find no place at which they are at rest on this mesh: their pull on it is wrong");
   report.energies = still.energies;
   measure_contacts(sewn, still.contacts, still.cloth_contacts, scene.options.contact_stiffness, Friction::unknown,
                    report);
@@ -80,19 +84,18 @@ Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& o
     for (const std::string& warning : body->warnings()) report.warnings.push_back(warning);
   report.seam_gap_max = matched.seam_gap_max;
   const std::vector<SlidingVertex> sliding = sliding_vertices(scene, apart, at_start, old_to_new);
-  Trimmings trimmings = make_trimmings(scene, matched.cloth);
-  if (!trimmings.trims.empty()) {
-    trimmings.trims.clear();
-    trimmings.attachments.clear();
-    report.warnings.emplace_back("trims are not judged: a mesh does not say where they are");
-  }
   const SimulationScene still{scene.solver,
                               body ? &*body : nullptr,
                               scene.body ? scene.body->friction.value_or(-1) : 0.0,
                               held_vertices(scene, at_start, attached_vertices(scene, at_start), sliding),
                               scene.friction_pairs,
                               sliding,
-                              std::move(trimmings)};
+                              make_trimmings(scene, matched.cloth)};
+  const std::vector<RigidTrim>& trims = still.trimmings.trims;
+  if (std::any_of(trims.begin(), trims.end(), [](const RigidTrim& t) { return t.friction > 0; }))
+    report.warnings.emplace_back(
+        "the friction of trims is not judged, which may carry much of the load around them: a mesh does not show "
+        "trims");
   const std::vector<double> contact_distance = measure_equilibrium(matched.cloth, at_start.x, still, options, report);
   measure_geometry(matched.cloth, still.body, report);
   add_warnings(matched.cloth, contact_distance, report);

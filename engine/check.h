@@ -25,11 +25,13 @@ struct CheckOptions {
 /// taken from the mesh: they may press and rub with any force in their Coulomb cones, and the residual is what the best
 /// choice leaves (quality/admissible_contact.h). So it is no larger than that of a drape's own report, up to the end of
 /// that search, and knows nothing of the history of friction. Nor of that of bending: where a fabric rubs as it bends,
-/// each triangle may have any moment that its friction allows (quality/admissible_forces.h).
-/// Vertices that the scene's pins hold, as they select them at the start, may be anywhere; clamps hold the planes in
-/// which the panels lie before they are sewn. How `mesh` is matched to the garments is said in mesh/match_mesh.h.
-/// report.stop_reason is "checked", and status "converged" if the residual's rms is under solver.rest_residual (0.05
-/// where that is 0) and no seam gapes by 1 mm. Throws InputError: the scene's problems, and `mesh_mismatch` at "".
+/// each triangle may have any moment that its friction allows (quality/admissible_forces.h). Rigid trims, which the
+/// mesh does not show, lie where they are at rest on it without friction (solve/still_cloth.h); if they have any, a
+/// warning says so. Vertices that the scene's pins hold, as they select them at the start, may be anywhere; clamps hold
+/// the planes in which the panels lie before they are sewn. How `mesh` is matched to the garments is said in
+/// mesh/match_mesh.h. report.stop_reason is "checked", and status "converged" if the residual's rms is under
+/// solver.rest_residual (0.05 where that is 0) and no seam gapes by 1 mm. Throws InputError: the scene's problems, and
+/// `mesh_mismatch` at "".
 Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& options = {});
 
 /// Its part about forces, of a sewn cloth at its positions, which was at `start` as the drape began

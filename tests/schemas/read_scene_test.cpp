@@ -206,6 +206,41 @@ TEST(ReadScene, Buttons) {
   EXPECT_DOUBLE_EQ(trim.damping, Trim{}.damping);
 }
 
+TEST(ReadScene, Zippers) {
+  const Garment garment = garment_from(
+      R"({"rectangle": {"width_mm": 400, "height_mm": 300},
+          "zippers": [{"sides": [{"edge": {"panel": "rectangle", "edge": 1}}, {"edge": {"panel": "rectangle", "edge": 3}}]},
+                      {"sides": [{"edge": {"panel": "rectangle", "edge": 0}}, {"edge": {"panel": "rectangle", "edge": 2}}],
+                       "bottom": "end", "closed_percent": 40, "mass_g_m": 12, "stiffness_N": 900, "bending_N_mm2": 15,
+                       "damping_s": 0.1, "slider": {"size_mm": [6, 9, 4], "mass_g": 1.5}, "stops": {"mass_g": 0.1},
+                       "thread_stiffness_N_m": 500, "thread_damping_s": 0.01, "friction": 0.4}]})");
+  ASSERT_EQ(garment.zippers.size(), 2u);
+  const Zipper &untold = garment.zippers[0], &told = garment.zippers[1], usual;
+  EXPECT_EQ(std::get<PinEdge>(untold.sides[1]).edge, 3);
+  EXPECT_FALSE(untold.from_end);
+  for (double Zipper::*member :
+       {&Zipper::closed_fraction, &Zipper::mass_per_length, &Zipper::stiffness, &Zipper::bending, &Zipper::damping,
+        &Zipper::thread_stiffness, &Zipper::thread_damping, &Zipper::friction})
+    EXPECT_DOUBLE_EQ(untold.*member, usual.*member);
+  for (ZipperEnd Zipper::*end : {&Zipper::slider, &Zipper::stop}) {
+    EXPECT_DOUBLE_EQ((untold.*end).mass, (usual.*end).mass);
+    EXPECT_LT(((untold.*end).size - (usual.*end).size).norm(), 1e-15);
+  }
+  EXPECT_TRUE(told.from_end);
+  EXPECT_DOUBLE_EQ(told.closed_fraction, 0.4);
+  EXPECT_DOUBLE_EQ(told.mass_per_length, 0.012);
+  EXPECT_DOUBLE_EQ(told.stiffness, 900);
+  EXPECT_DOUBLE_EQ(told.bending, 15e-6);
+  EXPECT_DOUBLE_EQ(told.damping, 0.1);
+  EXPECT_LT((told.slider.size - Vec3(6e-3, 9e-3, 4e-3)).norm(), 1e-15);
+  EXPECT_DOUBLE_EQ(told.slider.mass, 1.5e-3);
+  EXPECT_LT((told.stop.size - usual.stop.size).norm(), 1e-15);
+  EXPECT_DOUBLE_EQ(told.stop.mass, 1e-4);
+  EXPECT_DOUBLE_EQ(told.thread_stiffness, 500);
+  EXPECT_DOUBLE_EQ(told.thread_damping, 0.01);
+  EXPECT_DOUBLE_EQ(told.friction, 0.4);
+}
+
 TEST(ReadScene, ASlidingPinHasItsFrictionOrTheBodys) {
   const auto hold = [](const std::string& friction) {
     const Job job = read(R"({"garments": [{"disc": {"radius_mm": 150}, "pins": [{"vertices": [0], "hold": "sliding")" +

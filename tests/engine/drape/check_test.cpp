@@ -110,7 +110,7 @@ TEST(Judge, LetsTheFrictionOfBendingHoldWhatItMayAndNoMore) {
   const TriangleMesh limp = surface_mesh(draped(scene).cloth);
   const Scene elastic = scene;
   scene.garments[0].fabric.bending_hysteresis = {4e-4, 4e-4, 4e-4};
-  scene.solver.simulated_time_limit = 3;
+  scene.solver.rest_residual = 5e-3;
   const Drape stiff = draped(scene);
   const TriangleMesh held = surface_mesh(stiff.cloth);
   const double without = judge(elastic, held).residual_rms, with = judge(scene, held).residual_rms;
@@ -127,6 +127,29 @@ TEST(Judge, LetsTheFrictionOfBendingHoldWhatItMayAndNoMore) {
   }
   EXPECT_GT(judge(scene, beyond).residual_rms, 0.3);
   EXPECT_EQ(judge(scene, beyond).status, "not_converged");
+}
+
+/// A mesh does not show the button that draws it down, but where it hangs follows from the mesh.
+TEST(Judge, FindsWhereTrimsRest) {
+  Scene scene = shelf_scene();
+  Trim heavy;
+  heavy.holes = {{"square", Vec2(0.01, 0.06)}};
+  heavy.button.mass = 1e-3;
+  heavy.friction = 0;
+  scene.garments[0].trims = {heavy};
+  scene.solver.rest_residual = 5e-3;
+  const Drape ours = draped(scene);
+  ASSERT_EQ(ours.report.status, "converged");
+  const TriangleMesh mesh = surface_mesh(ours.cloth);
+  const Report judged = judge(scene, mesh);
+  EXPECT_NEAR(judged.residual_rms, ours.report.residual_rms, 5e-3);
+  EXPECT_NEAR(energy(judged, "attachment"), energy(ours.report, "attachment"),
+              0.02 * energy(ours.report, "attachment"));
+  EXPECT_TRUE(judged.warnings.empty());
+  scene.garments[0].trims[0].friction = 0.2;
+  EXPECT_EQ(judge(scene, mesh).warnings.size(), 1u);
+  scene.garments[0].trims.clear();
+  EXPECT_GT(judge(scene, mesh).residual_rms, 1) << "something draws it down";
 }
 
 TEST(Judge, SeesThatAMeshIsNoEquilibrium) {
