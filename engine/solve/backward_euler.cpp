@@ -295,6 +295,7 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
 }
 
 const std::vector<double>& BackwardEuler::masses() const { return implementation_->mass_in_cloth_order; }
+void BackwardEuler::set_damping(double factor) { implementation_->system.set_damping(factor); }
 
 Energies BackwardEuler::energies(const State& state, const std::vector<Contact>& contacts) const {
   const Implementation& s = *implementation_;

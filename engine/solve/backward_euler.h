@@ -70,6 +70,9 @@ class BackwardEuler {
   StepOutcome step(State& state, double h, double stiffness_factor, std::vector<Contact>& contacts,
                    const Kinematic& kinematic, StepTimes& times, std::vector<TrimContact>* trim_contacts = nullptr);
 
+  /// From the next step on the fabrics' damping is this share of their own (powers of two come back to the same bits).
+  void set_damping(double factor);
+
   const std::vector<double>& masses() const;  ///< lumped, per vertex [kg]
   Energies energies(const State& state, const std::vector<Contact>& contacts) const;
   /// What each static term and gravity store at these positions; a new term of StaticSystem is in it by itself. Where

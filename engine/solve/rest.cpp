@@ -21,4 +21,15 @@ bool RestDetector::update(std::span<const double> nodal_kinetic_energy, double h
   return quiet_ >= window_ * (1 - 1e-9);
 }
 
+double DampingRelief::update(bool quiet, bool balanced, double h) {
+  constexpr double kLeast = 1.0 / 64;
+  if (!quiet) factor_ = 1;
+  waited_ = quiet && !balanced ? waited_ + h : 0;
+  if (waited_ >= window_ * (1 - 1e-9) && factor_ > kLeast) {
+    factor_ *= 0.5;
+    waited_ = 0;
+  }
+  return factor_;
+}
+
 }  // namespace toile

@@ -27,4 +27,19 @@ class RestDetector {
   double threshold_, window_, quiet_ = 0, percentile_ = 0;
 };
 
+/// Damping that gives way to creep. Near-critical damping (the seed's §5.3) is far from it where little drives a lot of
+/// bending: the tip of a developable cone that moves through the sheet bends every triangle that it passes, the more
+/// sharply the finer the mesh, and creeps by a millimetre a second under forces of many vertices' weight. So while the
+/// drape is quiet (RestDetector) and out of balance, damping is halved once a window, down to 1/64 (too little to tell
+/// from the integrator's own); what gets loud again gets all of it back. No equilibrium depends on it.
+class DampingRelief {
+ public:
+  explicit DampingRelief(const SolverOptions& options) : window_(options.rest_window) {}
+  /// To be called after each accepted step of length h; returns the factor on the fabrics' damping from now on.
+  double update(bool quiet, bool balanced, double h);
+
+ private:
+  double window_, waited_ = 0, factor_ = 1;
+};
+
 }  // namespace toile

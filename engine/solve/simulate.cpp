@@ -74,6 +74,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   const std::size_t vertices = cloth.x.size(), n = clamped.x.size();
   TimeStep time_step(options);
   RestDetector rest(options);
+  DampingRelief relief(options);
   StepTimes step_times;
   State state{clamped.x, Positions(n, Vec3::Zero()), {}};
   for (const RigidTrim& trim : scene.trimmings.trims) state.trims.push_back(trim.start);
@@ -127,7 +128,10 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
                                   kinematic.held) < options.rest_residual;
           next_force_check = t + kForceCheckInterval;
         }
+        solver.set_damping(relief.update(true, balanced, h));
         quiet = balanced;
+      } else {
+        solver.set_damping(relief.update(false, false, h));
       }
       if (t < moving_until) rest.reset();
       // Without early stop the run goes on, and says what it ended in.

@@ -150,6 +150,14 @@ double StaticSystem::bending_energy_sum(const Positions& x) const {
   });
 }
 
+void StaticSystem::set_damping(double factor) {
+  const double change = factor / damping_;
+  if (change == 1) return;
+  for (MembraneStencil& s : membrane_) s.damping *= change;
+  for (BendingStencil& s : bending_.stencils) s.damping *= change;
+  damping_ = factor;
+}
+
 void StaticSystem::advance_slip(const Positions& x) {
   parallel_for_each(static_cast<int>(bending_.laws.size()), 1024, [&](int k) {
     BendingLaw& law = bending_.laws[k];

@@ -40,6 +40,9 @@ class StaticSystem {
   double membrane_energy_sum(const Positions& x) const;        ///< [J]
   double bending_energy_sum(const Positions& x) const;         ///< [J], of bending friction what it gives back
 
+  /// The fabrics' damping is this share of what they were made with.
+  void set_damping(double factor);
+
   /// Lets bending friction slide as far as it did in a step that ended at x.
   void advance_slip(const Positions& x);
 
@@ -53,6 +56,7 @@ class StaticSystem {
   ColoredStencils membrane_colors_, bending_colors_;
   std::vector<std::array<int, 6>> membrane_slots_;  ///< (0,1) (0,2) (1,2) and their mirrors
   std::vector<std::array<int, 36>> bending_slots_;
+  double damping_ = 1;
   TrimSystem trims_;
   BlockMatrix topology_;
 };

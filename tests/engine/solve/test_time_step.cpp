@@ -71,3 +71,21 @@ TEST(Rest, NeedsTheWholeWindowBelowTheThreshold) {
   rest.reset();
   EXPECT_FALSE(rest.update(quiet, 1e-3));
 }
+
+TEST(DampingRelief, HalvesOnceAWindowWhileQuietAndOutOfBalance) {
+  SolverOptions options;
+  options.rest_window = 0.1;
+  DampingRelief relief(options);
+  const auto run = [&](int steps, bool quiet, bool balanced) {
+    double factor = 0;
+    for (int k = 0; k < steps; ++k) factor = relief.update(quiet, balanced, 0.01);
+    return factor;
+  };
+  EXPECT_EQ(run(50, false, false), 1);
+  EXPECT_EQ(run(9, true, false), 1);
+  EXPECT_EQ(run(1, true, false), 0.5);
+  EXPECT_EQ(run(10, true, false), 0.25);
+  EXPECT_EQ(run(50, true, true), 0.25);  // in balance: as it is
+  EXPECT_EQ(run(200, true, false), 1.0 / 64);
+  EXPECT_EQ(run(1, false, false), 1);  // loud: all of it again
+}
