@@ -11,26 +11,26 @@ namespace {
 
 using nlohmann::json;
 
-Experiment read(const char* text) { return read_experiment(parse_json(text)); }
+Experiment experiment_from(const char* text) { return read_experiment(parse_json(text)); }
 
 TEST(ReadExperiment, KeysBecomeMetresAndDirections) {
-  const auto disc = std::get<CusickDrape>(read(
+  const auto disc = std::get<CusickDrape>(experiment_from(
       R"({"experiment": {"kind": "cusick_drape", "fabric": "denim", "disc_mm": 360, "support_mm": 200, "starts": 2}})"));
   EXPECT_EQ(disc.fabric.name, "denim");
   EXPECT_DOUBLE_EQ(disc.disc_diameter, 0.36);
   EXPECT_DOUBLE_EQ(disc.support_diameter, 0.2);
   EXPECT_EQ(disc.starts, 2);
   const auto strip = std::get<Cantilever>(
-      read(R"({"experiment": {"kind": "cantilever", "fabric": "denim", "direction": "bias", "overhang_mm": 80}})"));
+      experiment_from(R"({"experiment": {"kind": "cantilever", "fabric": "denim", "direction": "bias", "overhang_mm": 80}})"));
   EXPECT_EQ(strip.direction, Direction::bias);
   EXPECT_DOUBLE_EQ(*strip.overhang, 0.08);
-  const auto pulled = std::get<UniaxialTest>(read(
+  const auto pulled = std::get<UniaxialTest>(experiment_from(
       R"({"experiment": {"kind": "bias_extension", "fabric": "denim", "strains_percent": [2, 4], "length_mm": 150}})"));
   EXPECT_EQ(pulled.direction, Direction::bias);
   EXPECT_DOUBLE_EQ(pulled.length, 0.15);
-  EXPECT_THAT(pulled.strains, testing::ElementsAre(testing::DoubleEq(0.02), testing::DoubleEq(0.04)));
+  EXPECT_THAT(pulled.strains, ::testing::ElementsAre(::testing::DoubleEq(0.02), ::testing::DoubleEq(0.04)));
   const auto loop =
-      std::get<PearLoop>(read(R"({"experiment": {"kind": "pear_loop", "fabric": "denim", "length_mm": 200}})"));
+      std::get<PearLoop>(experiment_from(R"({"experiment": {"kind": "pear_loop", "fabric": "denim", "length_mm": 200}})"));
   EXPECT_DOUBLE_EQ(loop.length, 0.2);
   EXPECT_EQ(loop.direction, Direction::warp);
 }
@@ -44,7 +44,7 @@ TEST(ReadExperiment, SchemasDefaultsAreTheStructs) {
   std::vector<double> percent;
   for (const double strain : UniaxialTest{}.strains) percent.push_back(100 * strain);
   EXPECT_THAT(keys["strains_percent"]["default"].get<std::vector<double>>(),
-              testing::Pointwise(testing::DoubleNear(1e-12), percent));
+              ::testing::Pointwise(::testing::DoubleNear(1e-12), percent));
 }
 
 TEST(ReadExperiment, EveryResultMatchesItsSchema) {

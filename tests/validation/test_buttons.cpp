@@ -31,10 +31,10 @@ Scene hung_by_a_button() {
   return scene;
 }
 
+}  // namespace
+
 /// Where the pin is a clamp, its points lie between the cloth's nodes and the button's.
 class ButtonReference : public ::testing::TestWithParam<bool> {};
-
-}  // namespace
 
 TEST_P(ButtonReference, CarriesTheWeightOfWhatHangsByIt) {
   Scene scene = hung_by_a_button();

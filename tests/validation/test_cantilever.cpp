@@ -21,23 +21,23 @@ Vec3 tip_at(double gamma, int cells, double degrees = 0) {
   return tip_of(strip) / scene.length;
 }
 
-struct Elastica {
+struct ElasticaTip {
   double x, drop;
 };
 
-Elastica elastica(double gamma) {
+ElasticaTip elastica(double gamma) {
   const std::string at = "/cantilever/" + std::to_string(reference_row("/cantilever", "Gamma", gamma));
   return {reference(at + "/x"), reference(at + "/drop")};
 }
 
-double error_of(const Vec3& tip, const Elastica& exact) { return std::hypot(tip.x() - exact.x, -tip.y() - exact.drop); }
+double error_of(const Vec3& tip, const ElasticaTip& exact) { return std::hypot(tip.x() - exact.x, -tip.y() - exact.drop); }
 
 }  // namespace
 
 TEST(CantileverReference, TipIsWithinOnePerCentOfTheLength) {
   SKIP_WITHOUT_REFERENCES();
   for (double gamma : {0.1, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0}) {
-    const Elastica exact = elastica(gamma);
+    const ElasticaTip exact = elastica(gamma);
     const Vec3 tip = tip_at(gamma, 40);
     std::printf("Gamma %6g  x %.5f (%.5f)  drop %.5f (%.5f)  error %.2f %% of L\n", gamma, tip.x(), exact.x, -tip.y(),
                 exact.drop, 100 * error_of(tip, exact));
@@ -48,7 +48,7 @@ TEST(CantileverReference, TipIsWithinOnePerCentOfTheLength) {
 TEST(CantileverReference, ErrorFallsWithTheEdgeLength) {
   SKIP_WITHOUT_REFERENCES();
   for (double gamma : {1.0, 10.0, 100.0}) {
-    const Elastica exact = elastica(gamma);
+    const ElasticaTip exact = elastica(gamma);
     double error[3];
     for (int k = 0; k < 3; ++k) error[k] = error_of(tip_at(gamma, 10 << k), exact);
     const double order = 0.5 * std::log2(error[0] / error[2]);
@@ -90,7 +90,7 @@ TEST(CantileverReference, WarpAndWeftBendWithTheirOwnStiffness) {
     HeldCloth strip = make_strip(scene, strip_fabric(kDensity, {4 * d, d, 2.5 * d}));
     settle(strip);
     const Vec3 tip = tip_of(strip) / scene.length;
-    const Elastica exact = elastica(gamma);
+    const ElasticaTip exact = elastica(gamma);
     std::printf("%s: x %.5f (%.5f)  drop %.5f (%.5f)\n", degrees == 0 ? "weft" : "warp", tip.x(), exact.x, -tip.y(),
                 exact.drop);
     EXPECT_LT(error_of(tip, exact), 0.0015);

@@ -12,7 +12,7 @@ using namespace toile::test;
 
 namespace {
 
-constexpr double kOffset = 5e-4;  ///< contact offset; the mid-surface lies at `radius` [m]
+constexpr double kContactOffset = 5e-4;  ///< contact offset; the mid-surface lies at `radius` [m]
 constexpr double kRowHeight = 0.01;
 
 /// Strip of two cells' width whose length runs over the cylinder, `shorter` hanging on one side, `longer` on the other.
@@ -47,12 +47,12 @@ double slip(const OverCylinder& setup, double from, double to) {
         strip.triangle_panel[t] = static_cast<int>(strip.panels.size()) - 1;
     }
   }
-  const Body body{CylinderBody{Vec3(0, 0, -0.5), Vec3(0, 0, 0.5), setup.radius - kOffset}, setup.friction};
+  const Body body{CylinderBody{Vec3(0, 0, -0.5), Vec3(0, 0, 0.5), setup.radius - kContactOffset}, setup.friction};
   const BodyField field = make_body_field(body, 0.01);
   SimulationScene scene;
   scene.body = &field;
   scene.body_friction = setup.friction;
-  scene.options.body_offset = kOffset;
+  scene.options.body_offset = kContactOffset;
   scene.options.relaxation_time = 0;
   scene.options.early_stop = false;
   scene.options.simulated_time_limit = to;

@@ -13,7 +13,7 @@ using namespace toile::test;
 
 namespace {
 
-constexpr double kOffset = 2e-3;
+constexpr double kBodyOffset = 2e-3;
 
 struct Motion {
   double creep = 0;         ///< of the attached vertices along the plane, from 0.3 s to the end [m]
@@ -29,14 +29,14 @@ Motion slide(double slope, double friction, double seconds, bool edge_only, doub
   const Vec3 normal(std::sin(slope), std::cos(slope), 0), downhill(std::cos(slope), -std::sin(slope), 0);
   const BodyField plane = make_body_field({PlaneBody{Vec3::Zero(), normal}, 0.9}, 0.02);
   Cloth sheet = equilateral_sheet(5, 6, 0.02, suiting(), [&](const Vec2& uv) -> Vec3 {
-    return uv.x() * downhill + uv.y() * Vec3::UnitZ() + kOffset * normal;
+    return uv.x() * downhill + uv.y() * Vec3::UnitZ() + kBodyOffset * normal;
   });
   SimulationScene scene;
   scene.body = &plane;
   scene.body_friction = 0.9;  // must not matter where the attachment has its own
   for (int v = 0; v < static_cast<int>(sheet.x.size()); ++v)
     if (!edge_only || sheet.x[v].dot(downhill) < 1e-9) scene.sliding.push_back({v, friction});
-  scene.options.body_offset = kOffset;
+  scene.options.body_offset = kBodyOffset;
   scene.options.air_drag = air_drag;
   scene.options.early_stop = false;
   scene.options.relaxation_time = 0;
@@ -50,7 +50,7 @@ Motion slide(double slope, double friction, double seconds, bool edge_only, doub
     places.emplace_back(state.time, sum / static_cast<double>(state.x->size()));
     if (settled.empty() && state.time > 0.3) settled = *state.x;
     for (const SlidingVertex& s : scene.sliding)
-      motion.lift = std::max(motion.lift, std::abs((*state.x)[s.vertex].dot(normal) - kOffset));
+      motion.lift = std::max(motion.lift, std::abs((*state.x)[s.vertex].dot(normal) - kBodyOffset));
     return true;
   });
   const auto &a = places[places.size() / 3], &b = places[2 * places.size() / 3], &c = places.back();
@@ -60,7 +60,7 @@ Motion slide(double slope, double friction, double seconds, bool edge_only, doub
   const BackwardEuler solver(sheet, scene.options);
   for (double m : solver.masses()) motion.weight += kGravity * m;
   for (const SlidingVertex& s : scene.sliding) {
-    motion.pull += scene.options.contact_stiffness * (sheet.x[s.vertex].dot(normal) - kOffset);
+    motion.pull += scene.options.contact_stiffness * (sheet.x[s.vertex].dot(normal) - kBodyOffset);
     if (!settled.empty()) motion.creep = std::max(motion.creep, (sheet.x[s.vertex] - settled[s.vertex]).norm());
   }
   return motion;
@@ -108,11 +108,11 @@ TEST(SlidingAttachmentReference, IsDrawnOntoTheSurfaceFromAfar) {
   SimulationScene scene;
   scene.body = &ball;
   scene.body_friction = 0.3;
-  scene.options.body_offset = kOffset;
+  scene.options.body_offset = kBodyOffset;
   scene.options.gravity = false;
   scene.options.rest_residual = 0;
   for (int v = 0; v < 5; ++v) scene.sliding.push_back({v, 0.3});
   const Simulation result = simulate(sheet, scene, [](const SimulationState&) { return true; });
   EXPECT_EQ(result.stop_reason, "at_rest");
-  for (const SlidingVertex& s : scene.sliding) EXPECT_NEAR(ball.distance(sheet.x[s.vertex]), kOffset, 2e-4);
+  for (const SlidingVertex& s : scene.sliding) EXPECT_NEAR(ball.distance(sheet.x[s.vertex]), kBodyOffset, 2e-4);
 }

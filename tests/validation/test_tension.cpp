@@ -59,13 +59,13 @@ double ribbon_sag(int columns, double span, double factor, double density, doubl
   return -lowest;
 }
 
-struct Ring {
+struct LoadedRing {
   double pressed = 0;  ///< sum of contact forces [N]
   double tension = 0;  ///< elastic energy [J]
 };
 
 /// A soft tube round a cylinder of 0.1 m with elastic along one end, relaxed at `factor` times the flat length.
-Ring ring_on_cylinder(double factor, double stiffness, bool as_cord) {
+LoadedRing ring_on_cylinder(double factor, double stiffness, bool as_cord) {
   const double radius = 0.1, offset = 2e-3, girth = 2 * std::numbers::pi * (radius + offset);
   const int columns = 48;
   const BodyField body = make_body_field(cylinder_body(radius), 0.01);
@@ -99,7 +99,7 @@ Ring ring_on_cylinder(double factor, double stiffness, bool as_cord) {
   scene.options.rest_residual = 0;
   scene.options.simulated_time_limit = 1;
   const Simulation result = simulate(tube, scene, [](const SimulationState&) { return true; });
-  Ring ring;
+  LoadedRing ring;
   for (double f : result.contact_force) ring.pressed += f;
   const BackwardEuler solver(tube, scene.options, scene.trimmings);
   ring.tension = solver.energies({tube.x, Positions(tube.x.size(), Vec3::Zero())}, {}).tension;
@@ -139,7 +139,7 @@ TEST(TensionReference, ABandPressesWithItsTensionOverTheRadius) {
 
 TEST(TensionReference, ASlackBandExertsNothing) {
   for (bool as_cord : {false, true}) {
-    const Ring ring = ring_on_cylinder(1.05, 10, as_cord);
+    const LoadedRing ring = ring_on_cylinder(1.05, 10, as_cord);
     EXPECT_EQ(ring.tension, 0);
     EXPECT_LT(ring.pressed, 1e-6);
   }

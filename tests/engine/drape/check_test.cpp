@@ -9,7 +9,7 @@
 #include "engine/mesh/sewing.h"
 #include "engine/scene/problem.h"
 #include "tests/engine/drape/meshes.h"
-#include "tests/engine/solve/scenes.h"
+#include "tests/engine/drape/scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -19,22 +19,6 @@ namespace toile {
 namespace {
 
 using namespace test;
-
-Scene ball_scene() {
-  Scene scene;
-  scene.garments = {square_garment(0.2, 0.02, 0.105)};
-  scene.body = Body{SphereBody{Vec3::Zero(), 0.1}, 0.3};
-  return scene;
-}
-
-Scene skirt_scene() {
-  Scene scene = tube_scene(0.03);
-  Pattern skirt = tube_pattern(0.345, 0.12, 0.14, -0.06);
-  for (Panel& panel : skirt.panels) panel.edges[2].label = "lower_interface";
-  scene.garments[0].shape = skirt;
-  scene.garments[0].pins = {{PinLabel{"lower_interface"}, PinAttached{}}};
-  return scene;
-}
 
 /// A sheet that leaves a wall level, and sags.
 Scene shelf_scene() {

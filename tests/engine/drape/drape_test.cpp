@@ -5,7 +5,7 @@
 #include "engine/parallel/state_hash.h"
 #include "engine/scene/problem.h"
 #include "tests/engine/drape/meshes.h"
-#include "tests/engine/solve/scenes.h"
+#include "tests/engine/drape/scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -20,24 +20,6 @@ using namespace test;
 bool warns(const Report& report, const std::string& words) {
   return std::any_of(report.warnings.begin(), report.warnings.end(),
                      [&](const std::string& w) { return w.find(words) != std::string::npos; });
-}
-
-Scene ball_scene(double edge_length = 0.02) {
-  Scene scene;
-  scene.garments = {square_garment(0.2, edge_length, 0.105)};
-  scene.garments[0].fabric.bending_damping = 0.2;
-  scene.body = Body{SphereBody{Vec3::Zero(), 0.1}, 0.3};
-  return scene;
-}
-
-/// A short skirt whose waist is held to the cylinder.
-Scene skirt_scene() {
-  Scene scene = tube_scene(0.03);
-  Pattern skirt = tube_pattern(0.345, 0.12, 0.14, -0.06);
-  for (Panel& panel : skirt.panels) panel.edges[2].label = "lower_interface";
-  scene.garments[0].shape = skirt;
-  scene.garments[0].pins = {{PinLabel{"lower_interface"}, PinAttached{}}};
-  return scene;
 }
 
 /// What a reader of any report may rely on.

@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-const std::function<bool(double, long)> kGoOn = [](double, long) { return true; };
+const std::function<bool(double, long)> kNeverCancel = [](double, long) { return true; };
 
 struct Preview {
   Preview() {
@@ -29,7 +29,7 @@ struct Preview {
 
 TEST(SettlePreview, ASquareLiesOnABall) {
   Preview p;
-  const PreviewOutcome outcome = settle_preview(p.scene, p.cloth, p.body.get(), {}, kGoOn);
+  const PreviewOutcome outcome = settle_preview(p.scene, p.cloth, p.body.get(), {}, kNeverCancel);
   EXPECT_GT(outcome.steps, 50);
   EXPECT_LE(outcome.steps, 1500);
   EXPECT_TRUE(all_finite(p.cloth.x));
@@ -45,7 +45,7 @@ TEST(SettlePreview, HeldVerticesEndWhereTheirLastKeyFramePutsThem) {
   PinMoved lift;
   lift.key_frames = {{0, Vec3::Zero(), Vec3::Zero()}, {1, Vec3(0, 0.02, 0), Vec3::Zero()}};
   const std::vector<HeldVertex> held = {{0, p.cloth.x[0], &lift}, {1, p.cloth.x[1], nullptr}};
-  settle_preview(p.scene, p.cloth, nullptr, held, kGoOn);
+  settle_preview(p.scene, p.cloth, nullptr, held, kNeverCancel);
   EXPECT_LT((p.cloth.x[0] - held[0].start - Vec3(0, 0.02, 0)).norm(), 1e-12);
   EXPECT_EQ(p.cloth.x[1], held[1].start);
   EXPECT_TRUE(all_finite(p.cloth.x));
@@ -53,7 +53,7 @@ TEST(SettlePreview, HeldVerticesEndWhereTheirLastKeyFramePutsThem) {
 
 TEST(SettlePreview, NothingHoldsItSoItNeverRests) {
   Preview p;
-  const PreviewOutcome outcome = settle_preview(p.scene, p.cloth, nullptr, {}, kGoOn);
+  const PreviewOutcome outcome = settle_preview(p.scene, p.cloth, nullptr, {}, kNeverCancel);
   EXPECT_FALSE(outcome.at_rest);
   EXPECT_EQ(outcome.steps, 1500);
   EXPECT_TRUE(all_finite(p.cloth.x));
@@ -61,8 +61,8 @@ TEST(SettlePreview, NothingHoldsItSoItNeverRests) {
 
 TEST(SettlePreview, SameBytesTwice) {
   Preview a, b;
-  settle_preview(a.scene, a.cloth, a.body.get(), {}, kGoOn);
-  settle_preview(b.scene, b.cloth, b.body.get(), {}, kGoOn);
+  settle_preview(a.scene, a.cloth, a.body.get(), {}, kNeverCancel);
+  settle_preview(b.scene, b.cloth, b.body.get(), {}, kNeverCancel);
   EXPECT_EQ(sha256_hex(a.cloth.x), sha256_hex(b.cloth.x));
 }
 

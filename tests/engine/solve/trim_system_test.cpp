@@ -15,7 +15,7 @@ using namespace toile::test;
 
 namespace {
 
-SolverOptions tight() {
+SolverOptions tight_with_trims() {
   SolverOptions o;
   o.newton_tolerance = 1e-9;
   o.newton_momentum_fraction = 1e-8;
@@ -26,8 +26,8 @@ SolverOptions tight() {
 }
 
 /// One button beside, or sewn to, one held triangle in the x–z plane with its first corner in the origin.
-struct Trial {
-  Trial(const RigidBody& body, const RigidState& start, const std::vector<Vec3>& points, double stiffness,
+struct TrimTrial {
+  TrimTrial(const RigidBody& body, const RigidState& start, const std::vector<Vec3>& points, double stiffness,
         const SolverOptions& options, double damping = 0) {
     cloth.x = {Vec3(0, 0, 0), Vec3(0, 0, 0.01), Vec3(0.01, 0, 0)};
     cloth.triangles = {{0, 1, 2}};
@@ -65,7 +65,7 @@ TEST(RigidBody, ADiscHasTheMomentsOfADisc) {
 }
 
 TEST(RigidTrim, FreeFlightKeepsMomentumAndAngularMomentum) {
-  SolverOptions options = tight();
+  SolverOptions options = tight_with_trims();
   options.gravity = false;
   options.newton_tolerance = 1e-11;
   options.newton_momentum_fraction = 1e-11;
@@ -75,7 +75,7 @@ TEST(RigidTrim, FreeFlightKeepsMomentumAndAngularMomentum) {
   start.velocity = Vec3(0.2, 0.3, -0.1);
   start.angular_velocity = Vec3(20, 5, -10);  // about no principal axis: it tumbles
   const RigidBody slab{1e-3, {2e-8, 5e-8, 6e-8}};
-  Trial trial(slab, start, {}, 0, options);
+  TrimTrial trial(slab, start, {}, 0, options);
   const Vec3 before = angular_momentum(slab, start);
   for (int k = 0; k < 200; ++k) ASSERT_TRUE(trial.step(1e-3).accepted);
   const RigidState& end = trial.state.trims[0];
@@ -88,18 +88,18 @@ TEST(RigidTrim, FreeFlightKeepsMomentumAndAngularMomentum) {
 }
 
 TEST(RigidTrim, SpinAboutAPrincipalAxisIsExact) {
-  SolverOptions options = tight();
+  SolverOptions options = tight_with_trims();
   options.gravity = false;
   RigidState start;
   start.angular_velocity = Vec3(0, 0, 50);
-  Trial trial(kButton, start, {}, 0, options);
+  TrimTrial trial(kButton, start, {}, 0, options);
   for (int k = 0; k < 100; ++k) ASSERT_TRUE(trial.step(1e-3).accepted);
   const Eigen::AngleAxisd turned(trial.state.trims[0].orientation);
   EXPECT_NEAR(turned.angle() * turned.axis().z(), 5 - 2 * std::numbers::pi, 1e-6);
 }
 
 TEST(RigidTrim, FallsAsGravitySays) {
-  Trial trial(kButton, {}, {}, 0, tight());
+  TrimTrial trial(kButton, {}, {}, 0, tight_with_trims());
   for (int k = 0; k < 100; ++k) ASSERT_TRUE(trial.step(1e-3).accepted);
   EXPECT_NEAR(trial.state.trims[0].velocity.y(), -0.1 * kGravity, 1e-7);
   EXPECT_NEAR(trial.state.trims[0].center.y(), -0.5 * kGravity * 0.1 * 0.101, 1e-7);  // backward Euler's own sum
@@ -107,11 +107,11 @@ TEST(RigidTrim, FallsAsGravitySays) {
 
 TEST(RigidTrim, HangsBelowItsSpringByWeightOverStiffness) {
   const double stiffness = 2;
-  SolverOptions options = tight();
+  SolverOptions options = tight_with_trims();
   options.air_drag = 20;
   RigidState start;
   start.center = Vec3(3e-3, -2e-3, 0);                                        // turned away from where it will hang
-  Trial trial(kButton, start, {Vec3(6e-3, 0, 0)}, stiffness, options, 0.01);  // by its rim
+  TrimTrial trial(kButton, start, {Vec3(6e-3, 0, 0)}, stiffness, options, 0.01);  // by its rim
   for (int k = 0; k < 4000; ++k) ASSERT_TRUE(trial.step(2e-3).accepted);
   const RigidState& end = trial.state.trims[0];
   const Vec3 rim = end.center + end.orientation * Vec3(6e-3, 0, 0);
@@ -135,9 +135,9 @@ TEST(RigidTrim, TwoSpringsBalanceAnOffCentreLoadByTheLawOfTheLever) {
   // A bar whose centre of mass hangs between two springs of different stiffness at -a and +b keeps level where
   // k₁ a = k₂ b, and sinks by m g/(k₁ + k₂).
   const double stiff = 3, a = 2e-3, b = 6e-3;
-  SolverOptions options = tight();
+  SolverOptions options = tight_with_trims();
   options.air_drag = 20;
-  Trial trial(kButton, {}, {}, 0, options);
+  TrimTrial trial(kButton, {}, {}, 0, options);
   Trimmings trimmings;
   trimmings.trims = {{kButton, {}}};
   const double k1 = stiff * b / (a + b), k2 = stiff * a / (a + b);
@@ -160,7 +160,7 @@ TEST(RigidTrim, SwingsWithThePeriodOfThePhysicalPendulum) {
   const double angle = 0.05;  // small
   start.orientation = rotation_by(Vec3(0, 0, angle));
   start.center = start.orientation * Vec3(0, -r, 0);
-  Trial trial(kButton, start, {Vec3(0, r, 0)}, 2000, tight(), 0.001);
+  TrimTrial trial(kButton, start, {Vec3(0, r, 0)}, 2000, tight_with_trims(), 0.001);
   double previous = start.center.x(), time = 0, first = -1, second = -1;
   const double h = 1e-4;
   while (second < 0 && time < 2 * period) {
@@ -175,7 +175,7 @@ TEST(RigidTrim, SwingsWithThePeriodOfThePhysicalPendulum) {
 }
 
 TEST(RigidTrim, AStateOfOtherTrimsIsRefused) {
-  Trial trial(kButton, {}, {}, 0, tight());
+  TrimTrial trial(kButton, {}, {}, 0, tight_with_trims());
   trial.state.trims.clear();
   EXPECT_THROW(trial.step(1e-3), std::invalid_argument);
 }
