@@ -28,9 +28,8 @@ json document(const CusickReport& report) {
 }
 
 json document(const CantileverReport& report) {
-  json result = {{"overhang_mm", 1e3 * report.overhang},
-                 {"angle_deg", kDegrees * report.angle},
-                 {"drop_mm", 1e3 * report.drop}};
+  json result = {
+      {"overhang_mm", 1e3 * report.overhang}, {"angle_deg", kDegrees * report.angle}, {"drop_mm", 1e3 * report.drop}};
   if (report.bending_length) result["bending_length_mm"] = 1e3 * *report.bending_length;
   return result;
 }

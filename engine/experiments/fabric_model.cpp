@@ -100,9 +100,11 @@ double start_of_bending(const FabricMeasurements& m, std::size_t d) {
   if (m.bending[d]) return m.bending[d]->value;
   if (m.cantilevers[d]) {
     const MeasuredCantilever& test = *m.cantilevers[d];
-    const bool drop = test.reading == MeasuredCantilever::Reading::drop;
-    const double angle = drop ? std::asin(std::min(test.value / test.overhang, 0.99)) : test.value;
-    return weight * std::pow(test.overhang, 3) * std::cos(0.5 * angle) / (8 * std::tan(angle));
+    const double load = weight * std::pow(test.overhang, 3);
+    if (test.reading == MeasuredCantilever::Reading::angle)
+      return load * std::cos(0.5 * test.value) / (8 * std::tan(test.value));
+    const double share = std::min(test.value / test.overhang, 0.99);
+    return load / (8 * share / std::sqrt(1 - share) + 0.37 * std::pow(share, 4) / std::pow(1 - share, 2));
   }
   const MeasuredLoop& test = *m.loops[d];
   const double share =

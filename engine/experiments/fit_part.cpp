@@ -10,7 +10,7 @@ namespace toile {
 namespace {
 
 constexpr int kMostCorrections = 5;
-constexpr double kSettled = 0.1;     // change of a correction [uncertainties]
+constexpr double kSettled = 0.25;    // change of a correction [uncertainties]
 constexpr double kDetermined = 0.5;  // standard error of a logarithm
 constexpr double kAtBound = 1e-3;    // distance of a logarithm from its bound
 
@@ -57,7 +57,7 @@ class Laboratory {
     Key values;
     const Direction direction = problem_.specimens[specimen].direction;
     for (std::size_t k = 0; k < problem_.parameters.size(); ++k)
-      if (direction == Direction::bias || problem_.parameters[k].direction == direction)
+      if (!problem_.own_direction || direction == Direction::bias || problem_.parameters[k].direction == direction)
         values.push_back(logarithms[static_cast<Eigen::Index>(k)]);
     return values;
   }

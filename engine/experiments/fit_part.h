@@ -30,6 +30,8 @@ struct PartProblem {
   std::vector<PartSpecimen> specimens;
   std::vector<DirectReading> direct;
   double step;  ///< of the logarithms, for differences
+  /// Whether a specimen along warp or weft depends on the parameters of its own direction alone.
+  bool own_direction;
   /// The model with these values. May throw InputError.
   std::function<FabricModel(const Numbers& values)> model;
 };
@@ -43,10 +45,9 @@ struct PartSolution {
 
 /// Levenberg–Marquardt over the logarithms of the parameters, on coarse meshes. The meshes' error is not fitted: what
 /// specimens show is multiplied by the ratio of extrapolated() to coarse readings, measured at the start and anew at
-/// each solution until that ratio has settled to a tenth of every reading's uncertainty (defect correction); so `rows`
-/// are those of ever finer meshes. Specimens along warp and weft depend on their own direction's parameters alone (a
-/// tenth more stiffness in another direction changes their force by under 0.02 %), those on the bias on all. Different
-/// specimens run in parallel; the result does not depend on how many. Throws Cancelled.
+/// each solution until that ratio has settled to a quarter of every reading's uncertainty (defect correction); so
+/// `rows` are those of ever finer meshes. What a specimen did is remembered by the parameters that it depends on.
+/// Different specimens run in parallel; the result does not depend on how many. Throws Cancelled.
 PartSolution fit_part(const PartProblem& problem, Monitor& monitor);
 
 }  // namespace toile

@@ -7,7 +7,7 @@
 namespace toile {
 namespace {
 
-constexpr double kScale = 0.05;         // the constant residual [uncertainties]
+constexpr double kScale = 1;            // the constant residual [uncertainties]
 constexpr double kImprovement = 1e-3;   // relative, of the sum of squares: less is none
 constexpr double kSmallestStep = 1e-6;  // of the trust region over the parameters
 constexpr double kFirstStep = 1;        // radius of the trust region at first

@@ -30,9 +30,9 @@ struct LeastSquaresSolution {
 };
 
 /// Levenberg–Marquardt (Moré 1978, MINPACK's lmder, in Eigen's unsupported module). The first step is no longer than 1:
-/// parameters are meant to be logarithms. A residual that is constant, a
-/// twentieth of an uncertainty, is added so that its tests of relative improvement have a scale where the fit is
-/// exact; a step to where nothing can be evaluated is taken back. Parameters end within their bounds.
+/// parameters are meant to be logarithms. One more residual, constant, of one uncertainty gives
+/// its test of relative improvement (a thousandth of the sum of squares) a scale where the fit is exact; a step to
+/// where nothing can be evaluated is taken back. Parameters end within their bounds.
 LeastSquaresSolution least_squares(const LeastSquaresProblem& problem);
 
 /// What a Jacobian of residuals over uncertainty says of the parameters.
