@@ -1,8 +1,8 @@
 #include "engine/geometry/dress_form.h"
 
 #include "engine/geometry/dress_form_shape.h"
+#include "engine/geometry/openvdb_templates.h"
 
-#include <openvdb/openvdb.h>
 #include <openvdb/tools/SignedFloodFill.h>
 #include <openvdb/tools/VolumeToMesh.h>
 #include <tbb/parallel_for.h>

@@ -1,6 +1,7 @@
 #include "engine/geometry/narrow_band.h"
 
-#include <openvdb/openvdb.h>
+#include "engine/geometry/openvdb_templates.h"
+
 #include <openvdb/tools/MeshToVolume.h>
 #include <tbb/parallel_for.h>
 

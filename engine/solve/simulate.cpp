@@ -94,6 +94,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
     result.times.collisions += seconds_since(begun);
     for (const HeldVertex& held : held_points) kinematic.target[held.vertex] = position_at(held, t + h);
 
+    const Positions v_before = state.v;
     const Positions before = state.x;
     const std::vector<RigidState> trims_before = state.trims;
     const StepOutcome outcome =
@@ -139,6 +140,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
       if (options.early_stop && result.stop_reason == "at_rest") break;
     } else {
       state.x = before;
+      state.v = v_before;
       state.trims = trims_before;
       time_step.rejected();
       if (time_step.too_small()) {

@@ -20,8 +20,8 @@ TEST(ReadExperiment, KeysBecomeMetresAndDirections) {
   EXPECT_DOUBLE_EQ(disc.disc_diameter, 0.36);
   EXPECT_DOUBLE_EQ(disc.support_diameter, 0.2);
   EXPECT_EQ(disc.starts, 2);
-  const auto strip = std::get<Cantilever>(
-      experiment_from(R"({"experiment": {"kind": "cantilever", "fabric": "denim", "direction": "bias", "overhang_mm": 80}})"));
+  const auto strip = std::get<Cantilever>(experiment_from(
+      R"({"experiment": {"kind": "cantilever", "fabric": "denim", "direction": "bias", "overhang_mm": 80}})"));
   EXPECT_EQ(strip.direction, Direction::bias);
   EXPECT_DOUBLE_EQ(*strip.overhang, 0.08);
   const auto pulled = std::get<UniaxialTest>(experiment_from(
@@ -29,8 +29,8 @@ TEST(ReadExperiment, KeysBecomeMetresAndDirections) {
   EXPECT_EQ(pulled.direction, Direction::bias);
   EXPECT_DOUBLE_EQ(pulled.length, 0.15);
   EXPECT_THAT(pulled.strains, ::testing::ElementsAre(::testing::DoubleEq(0.02), ::testing::DoubleEq(0.04)));
-  const auto loop =
-      std::get<PearLoop>(experiment_from(R"({"experiment": {"kind": "pear_loop", "fabric": "denim", "length_mm": 200}})"));
+  const auto loop = std::get<PearLoop>(
+      experiment_from(R"({"experiment": {"kind": "pear_loop", "fabric": "denim", "length_mm": 200}})"));
   EXPECT_DOUBLE_EQ(loop.length, 0.2);
   EXPECT_EQ(loop.direction, Direction::warp);
 }

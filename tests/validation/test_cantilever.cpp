@@ -30,7 +30,9 @@ ElasticaTip elastica(double gamma) {
   return {reference(at + "/x"), reference(at + "/drop")};
 }
 
-double error_of(const Vec3& tip, const ElasticaTip& exact) { return std::hypot(tip.x() - exact.x, -tip.y() - exact.drop); }
+double error_of(const Vec3& tip, const ElasticaTip& exact) {
+  return std::hypot(tip.x() - exact.x, -tip.y() - exact.drop);
+}
 
 }  // namespace
 

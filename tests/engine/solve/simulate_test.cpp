@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numeric>
 
 namespace toile {
@@ -123,6 +124,20 @@ TEST(Simulate, AStepThatCannotSucceedEndsTheRunWithTheStartUntouched) {
   EXPECT_GT(result.splits, 30);
   EXPECT_EQ(result.steps, 0);
   EXPECT_EQ(scene.cloth.x, before);
+}
+
+TEST(Simulate, AStepThatIsNotFiniteIsTakenBack) {
+  OnBall scene;
+  scene.cloth.x.push_back(Vec3(1, 0, 0));  // in no triangle, so that the step around it succeeds
+  scene.cloth.vertex_garment.push_back(0);
+  const int loose = static_cast<int>(scene.cloth.x.size()) - 1;
+  scene.simulated.held = {{loose, Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), nullptr}};
+  const Positions before = scene.cloth.x;
+  const Simulation result = simulate(scene.cloth, scene.simulated, kGoOn);
+  EXPECT_EQ(result.stop_reason, "step_too_small");
+  EXPECT_EQ(result.steps, 0);
+  EXPECT_EQ(scene.cloth.x, before);
+  EXPECT_TRUE(all_finite(result.net_force));
 }
 
 TEST(Simulate, CancelsWithinAStep) {

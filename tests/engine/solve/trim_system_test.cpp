@@ -28,7 +28,7 @@ SolverOptions tight_with_trims() {
 /// One button beside, or sewn to, one held triangle in the x–z plane with its first corner in the origin.
 struct TrimTrial {
   TrimTrial(const RigidBody& body, const RigidState& start, const std::vector<Vec3>& points, double stiffness,
-        const SolverOptions& options, double damping = 0) {
+            const SolverOptions& options, double damping = 0) {
     cloth.x = {Vec3(0, 0, 0), Vec3(0, 0, 0.01), Vec3(0.01, 0, 0)};
     cloth.triangles = {{0, 1, 2}};
     cloth.flat = {{Vec2(0, 0), Vec2(0.01, 0), Vec2(0, 0.01)}};
@@ -110,7 +110,7 @@ TEST(RigidTrim, HangsBelowItsSpringByWeightOverStiffness) {
   SolverOptions options = tight_with_trims();
   options.air_drag = 20;
   RigidState start;
-  start.center = Vec3(3e-3, -2e-3, 0);                                        // turned away from where it will hang
+  start.center = Vec3(3e-3, -2e-3, 0);                                            // turned away from where it will hang
   TrimTrial trial(kButton, start, {Vec3(6e-3, 0, 0)}, stiffness, options, 0.01);  // by its rim
   for (int k = 0; k < 4000; ++k) ASSERT_TRUE(trial.step(2e-3).accepted);
   const RigidState& end = trial.state.trims[0];
