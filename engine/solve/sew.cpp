@@ -1,6 +1,7 @@
 #include "engine/solve/sew.h"
 
 #include "engine/mesh/sewing.h"
+#include "engine/solve/approach.h"
 #include "engine/solve/untangle_seams.h"
 
 #include <algorithm>
@@ -116,6 +117,7 @@ Sewn sew_in(AssemblyStage& stage, const Sewing& sewing, Cloth cloth, const Manne
     for (int g = 0; g < garments; ++g) {
       for (std::size_t v = 0; v < cloth.x.size(); ++v)
         solver.mobility[v] = sewing.held[v] || cloth.vertex_garment[v] > g ? 0.0 : 1.0;
+      approach(cloth, g, mesh, sewing.field, sewing.held);
       close_seams(stage, solver, cloth, g, sewing.part, manner, sewing.offset, 0.9 * g / garments,
                   0.9 * (g + 1) / garments);
     }
