@@ -21,16 +21,6 @@ constexpr double kStep = 0.02;         // [s]
 constexpr int kMostSteps = 2000;       // to one equilibrium
 constexpr double kLargestPull = 0.01;  // strain between two equilibria
 
-SolverOptions pull_options() {
-  SolverOptions options;
-  options.gravity = false;
-  options.air_drag = 0;
-  options.newton_tolerance = 1e-9;
-  options.newton_iterations = 30;
-  options.cg_tolerance = 1e-6;
-  return options;
-}
-
 /// The change of the right angle between warp and weft, by the mean of the map over the middle fifth of the strip.
 double middle_shear(const Cloth& cloth, const Positions& rest, double length) {
   Eigen::Matrix<double, 3, 2> sum = Eigen::Matrix<double, 3, 2>::Zero();
@@ -49,6 +39,16 @@ double middle_shear(const Cloth& cloth, const Positions& rest, double length) {
 }
 
 }  // namespace
+
+SolverOptions pull_options() {
+  SolverOptions options;
+  options.gravity = false;
+  options.air_drag = 0;
+  options.newton_tolerance = 1e-9;
+  options.newton_iterations = 30;
+  options.cg_tolerance = 1e-6;
+  return options;
+}
 
 UniaxialResult pull(const UniaxialTest& experiment, int threads, Monitor& monitor) {
   const auto started = std::chrono::steady_clock::now();

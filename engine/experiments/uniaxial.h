@@ -11,6 +11,10 @@ struct UniaxialResult {
   Drape drape;  ///< at the last strain
 };
 
+/// Of the solver for a strip in its plane, to an equilibrium as exact as steps in single precision find it: no weight,
+/// no air.
+SolverOptions pull_options();
+
 /// Grips hold the whole width of both ends, which do not narrow. The strip stays in its plane: it has no weight here
 /// and does not wrinkle. Each strain is an equilibrium, found by steps of backward Euler whose velocities are taken
 /// away, to a net force of 1e-5 of the pull at every vertex. drape.report.status is "not_converged" where one was not

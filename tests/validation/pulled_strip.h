@@ -1,6 +1,7 @@
 #pragma once
 // A uniaxial test as a laboratory would wish it: a meshed strip pulled through the solver, clamps that do not disturb.
 
+#include "engine/experiments/uniaxial.h"
 #include "engine/mesh/build_cloth.h"
 #include "engine/solve/backward_euler.h"
 #include "tests/engine/solve/scenes.h"
@@ -26,13 +27,7 @@ inline PulledStrip pull_strip(const Fabric& fabric, double grain_deg, double str
   scene.garments[0].fabric = fabric;
   scene.garments[0].grain = grain_deg * std::numbers::pi / 180;
   const Cloth strip = build_cloth(scene);
-  SolverOptions options;
-  options.gravity = false;
-  options.air_drag = 0;
-  options.newton_tolerance = 1e-9;
-  options.newton_iterations = 30;
-  options.cg_tolerance = 1e-6;
-  BackwardEuler solver(strip, options);
+  BackwardEuler solver(strip, pull_options());
   const Positions& rest = strip.x;
   const std::size_t n = rest.size();
   Kinematic ends{std::vector<char>(n, 0), rest};

@@ -63,12 +63,9 @@ TEST(PulledStripReference, SimpleShearOfAMeshedPatch) {
   scene.garments = {garment_of(Pattern{{rectangle_panel("patch", 0.06, 0.05)}, {}}, 7e-3)};
   scene.garments[0].fabric = reference_fabric();
   const Cloth patch = build_cloth(scene);
-  SolverOptions options;
-  options.gravity = false;
-  options.air_drag = 0;
+  SolverOptions options = pull_options();
   options.newton_tolerance = 1e-13;
   options.newton_iterations = 40;
-  options.cg_tolerance = 1e-6;
   for (int row = 0; row < 3; ++row) {
     const std::string at = "/membrane_stvk/simple_shear/" + std::to_string(row);
     const double gamma = reference(at + "/gamma");
