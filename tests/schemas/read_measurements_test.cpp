@@ -22,12 +22,12 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-const fs::path kExamples = TOILE_SOURCE "/schemas/examples/measurements";
+const fs::path kMeasurements = TOILE_SOURCE "/schemas/examples/measurements";
 constexpr std::size_t kWarp = 0, kWeft = 1, kBias = 2;
 
-FabricMeasurements read(const char* text) { return read_measurements(parse_json(text)); }
+FabricMeasurements measurements_of(const char* text) { return read_measurements(parse_json(text)); }
 
-std::vector<std::string> examples(const fs::path& folder) {
+std::vector<std::string> documents(const fs::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().stem().string();
@@ -38,7 +38,7 @@ std::vector<std::string> examples(const fs::path& folder) {
 }
 
 TEST(ReadMeasurements, UnitsBecomeSi) {
-  const FabricMeasurements m = read(R"({"area_density_g_m2": 150, "thickness_mm": 0.3, "poisson_ratio": 0.1,
+  const FabricMeasurements m = measurements_of(R"({"area_density_g_m2": 150, "thickness_mm": 0.3, "poisson_ratio": 0.1,
     "uniaxial": {"warp": {"length_mm": 100, "width_mm": 25, "uncertainty_percent": 4,
                           "readings": [{"strain_percent": 1, "force_N": 0.5}, {"strain_percent": 2, "force_N_m": 45}]}},
     "bias_extension": {"readings": [{"strain_percent": 3, "force_N_m": 7}]},
@@ -78,11 +78,11 @@ TEST(ReadMeasurements, SchemasDefaultsAreTheStructs) {
 class ValidMeasurements : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(ValidMeasurements, AreRead) {
-  EXPECT_NO_THROW(read_measurements(testing::json_from(kExamples / (GetParam() + ".json"))));
+  EXPECT_NO_THROW(read_measurements(testing::json_from(kMeasurements / (GetParam() + ".json"))));
 }
 
 TEST_P(ValidMeasurements, HostileValuesAreReadOrRefused) {
-  const json document = testing::json_from(kExamples / (GetParam() + ".json"));
+  const json document = testing::json_from(kMeasurements / (GetParam() + ".json"));
   const json leaves = document.flatten();
   for (const auto& [pointer, leaf] : leaves.items())
     for (const json& value : {json(), json(-1), json(0), json(1e308), json(5e-324), json("x"), json::array()}) {
@@ -99,19 +99,20 @@ TEST_P(ValidMeasurements, HostileValuesAreReadOrRefused) {
 class InvalidMeasurements : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(InvalidMeasurements, GetTheirProblem) {
-  const json expected = testing::json_from(kExamples / "invalid" / (GetParam() + ".problem.json"));
+  const json expected = testing::json_from(kMeasurements / "invalid" / (GetParam() + ".problem.json"));
   validate_document("problem.schema.json", expected);
   try {
-    read_measurements(testing::json_from(kExamples / "invalid" / (GetParam() + ".json")));
+    read_measurements(testing::json_from(kMeasurements / "invalid" / (GetParam() + ".json")));
     FAIL() << "was read";
   } catch (const InputError& error) {
     EXPECT_EQ(problem_document(error), expected) << problem_document(error).dump(2);
   }
 }
 
-std::string name_of(const ::testing::TestParamInfo<std::string>& example) { return example.param; }
-INSTANTIATE_TEST_SUITE_P(All, ValidMeasurements, ::testing::ValuesIn(examples(kExamples)), name_of);
-INSTANTIATE_TEST_SUITE_P(All, InvalidMeasurements, ::testing::ValuesIn(examples(kExamples / "invalid")), name_of);
+std::string document_name(const ::testing::TestParamInfo<std::string>& example) { return example.param; }
+INSTANTIATE_TEST_SUITE_P(All, ValidMeasurements, ::testing::ValuesIn(documents(kMeasurements)), document_name);
+INSTANTIATE_TEST_SUITE_P(All, InvalidMeasurements, ::testing::ValuesIn(documents(kMeasurements / "invalid")),
+                         document_name);
 
 /// A fit with a curve, a parameter that is not determined and one reading.
 FabricFit some_fit(const FabricMeasurements& m) {
@@ -152,7 +153,7 @@ TEST(WriteFabricFit, TheFabricIsReadBackAsItWas) {
 }
 
 TEST(WriteFabricFit, TheReportMatchesItsSchemaAndHasTheLabsUnits) {
-  const json report = write_fabric_fit(some_fit(read(R"({"area_density_g_m2": 150, "shear_N_m": 56})")));
+  const json report = write_fabric_fit(some_fit(measurements_of(R"({"area_density_g_m2": 150, "shear_N_m": 56})")));
   EXPECT_NO_THROW(validate_document("fabric_fit.schema.json", report)) << report.dump(2);
   EXPECT_NEAR(report["misfit"][0]["difference_percent"].get<double>(), 2, 1e-9);
   EXPECT_NEAR(report["misfit"][1]["measured"].get<double>(), 0.72 * 180 / std::numbers::pi, 1e-9);

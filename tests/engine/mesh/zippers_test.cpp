@@ -25,7 +25,7 @@ Scene zipped(double closed_fraction) {
   return scene;
 }
 
-std::string problem_of(const Scene& scene) {
+std::string zipper_problem_of(const Scene& scene) {
   try {
     check_scene(scene);
   } catch (const InputError& error) {
@@ -71,31 +71,31 @@ TEST(Zippers, OfAMeshNamesItsVertices) {
   Zipper& zipper = scene.garments[0].zippers[0];
   zipper.sides = {PinVertices{sides[0]}, PinVertices{sides[1]}};
   zipper.closed_fraction = 0.6;
-  EXPECT_EQ(problem_of(scene), "none");
+  EXPECT_EQ(zipper_problem_of(scene), "none");
   Cloth sewn = build_cloth(scene);
   EXPECT_EQ(sewn.seam_pairs.size(), 7u);
   zipper.sides[1] = PinVertices{{0, 1}};
-  EXPECT_EQ(problem_of(scene), "zipper_side /garments/0/zippers/0/sides");
+  EXPECT_EQ(zipper_problem_of(scene), "zipper_side /garments/0/zippers/0/sides");
   zipper.sides[1] = PinEdge{1, 3};
-  EXPECT_EQ(problem_of(scene), "zipper_side /garments/0/zippers/0/sides/1");
+  EXPECT_EQ(zipper_problem_of(scene), "zipper_side /garments/0/zippers/0/sides/1");
 }
 
 TEST(Zippers, AnEdgeIsSewnOnce) {
   Scene scene = zipped(0.5);
-  EXPECT_EQ(problem_of(scene), "none");
+  EXPECT_EQ(zipper_problem_of(scene), "none");
   scene.garments[0].zippers.push_back(scene.garments[0].zippers[0]);
-  EXPECT_EQ(problem_of(scene), "edge_stitched_twice /garments/0/zippers/1/sides/0");
+  EXPECT_EQ(zipper_problem_of(scene), "edge_stitched_twice /garments/0/zippers/1/sides/0");
   scene = zipped(0.5);
   std::get<Pattern>(scene.garments[0].shape).stitches = {{{0, 1}, {1, 1}, false}};
-  EXPECT_EQ(problem_of(scene), "edge_stitched_twice /garments/0/zippers/0/sides/0");
+  EXPECT_EQ(zipper_problem_of(scene), "edge_stitched_twice /garments/0/zippers/0/sides/0");
 }
 
 TEST(Zippers, NumbersOutOfRangeAreNamed) {
   Scene scene = zipped(1.2);
-  EXPECT_EQ(problem_of(scene), "zipper_value /garments/0/zippers/0/closed_percent");
+  EXPECT_EQ(zipper_problem_of(scene), "zipper_value /garments/0/zippers/0/closed_percent");
   scene = zipped(0.5);
   scene.garments[0].zippers[0].slider.mass = 0;
-  EXPECT_EQ(problem_of(scene), "zipper_value /garments/0/zippers/0/slider");
+  EXPECT_EQ(zipper_problem_of(scene), "zipper_value /garments/0/zippers/0/slider");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace toile {
 namespace {
 
-constexpr double kMass = 1e-3, kWeight = kMass * kGravity;
+constexpr double kNodeMass = 1e-3, kNodeWeight = kNodeMass * kGravity;
 
 double rms(const Positions& net, const std::vector<double>& mass, const std::vector<char>& held) {
   double sum = 0;
@@ -18,7 +18,7 @@ double rms(const Positions& net, const std::vector<double>& mass, const std::vec
   return std::sqrt(sum / count);
 }
 
-Contact on_slope(int vertex, double slope, double friction) {
+Contact slope_contact(int vertex, double slope, double friction) {
   Contact c;
   c.nodes = {vertex, 0, 0, 0};
   c.weights = {1, 0, 0, 0};
@@ -38,10 +38,10 @@ FrictionMoment lift(int node, double force) {
 TEST(AdmissibleForces, WithoutMomentsIsTheDistanceToTheCone) {
   for (const double slope : {0.0, 0.1, 0.28, 0.35, 0.8, 1.4})
     for (const double friction : {0.0, 0.3}) {
-      const std::vector<Contact> contacts{on_slope(0, slope, friction)};
-      const AdmissibleContact found = admissible_forces(contacts, {}, {Vec3(0, -kWeight, 0)}, {kMass}, {0});
-      const double expected = kWeight * std::sin(std::max(0.0, slope - std::atan(friction)));
-      EXPECT_NEAR(found.net_force[0].norm(), expected, 5e-3 * kWeight) << slope << ' ' << friction;
+      const std::vector<Contact> contacts{slope_contact(0, slope, friction)};
+      const AdmissibleContact found = admissible_forces(contacts, {}, {Vec3(0, -kNodeWeight, 0)}, {kNodeMass}, {0});
+      const double expected = kNodeWeight * std::sin(std::max(0.0, slope - std::atan(friction)));
+      EXPECT_NEAR(found.net_force[0].norm(), expected, 5e-3 * kNodeWeight) << slope << ' ' << friction;
       const double pressure = found.contact_force[0].dot(contacts[0].normal);
       EXPECT_GT(pressure, 0);
       EXPECT_LE((found.contact_force[0] - pressure * contacts[0].normal).norm(), friction * pressure + 1e-12);
@@ -51,8 +51,8 @@ TEST(AdmissibleForces, WithoutMomentsIsTheDistanceToTheCone) {
 TEST(AdmissibleForces, AMomentGivesWhatItsBoundAllows) {
   for (const double share : {0.5, 0.99, 1.0, 1.5}) {
     const AdmissibleContact found =
-        admissible_forces({}, {lift(0, share * kWeight)}, {Vec3(0, -kWeight, 0)}, {kMass}, {0});
-    EXPECT_NEAR(found.net_force[0].norm(), std::max(0.0, 1 - share) * kWeight, 3e-3 * kWeight) << share;
+        admissible_forces({}, {lift(0, share * kNodeWeight)}, {Vec3(0, -kNodeWeight, 0)}, {kNodeMass}, {0});
+    EXPECT_NEAR(found.net_force[0].norm(), std::max(0.0, 1 - share) * kNodeWeight, 3e-3 * kNodeWeight) << share;
   }
 }
 
@@ -61,12 +61,12 @@ TEST(AdmissibleForces, AMomentGivesWhatItsBoundAllows) {
 TEST(AdmissibleForces, ACantileverCarriesItsPlasticMomentAndNoMore) {
   constexpr int n = 60;
   const double edge = 5e-3;
-  const std::vector<double> mass(n, kMass);
+  const std::vector<double> mass(n, kNodeMass);
   std::vector<char> held(n, 0);
   held[0] = held[1] = 1;
-  const Positions load(n, Vec3(0, -kWeight, 0));
+  const Positions load(n, Vec3(0, -kNodeWeight, 0));
   double needed = 0;  // at the second node
-  for (int v = 2; v < n; ++v) needed += kWeight * edge * (v - 1);
+  for (int v = 2; v < n; ++v) needed += kNodeWeight * edge * (v - 1);
   for (const double share : {0.5, 0.9, 1.02, 2.0}) {
     std::vector<FrictionMoment> joints;
     for (int v = 1; v + 1 < n; ++v) {
@@ -90,14 +90,14 @@ TEST(AdmissibleForces, LeavesNoMoreThanAnyChoiceOfContactForces) {
   std::vector<Contact> contacts;
   Positions load(n);
   for (int v = 0; v < n; ++v) {
-    load[static_cast<std::size_t>(v)] = kWeight * Vec3(normal(random), normal(random), normal(random));
-    Contact c = on_slope(v, 0.5 * normal(random), 0.4);
+    load[static_cast<std::size_t>(v)] = kNodeWeight * Vec3(normal(random), normal(random), normal(random));
+    Contact c = slope_contact(v, 0.5 * normal(random), 0.4);
     c.nodes[1] = (v + 7) % n;
     c.weights[1] = -0.6;
     c.count = 2;
     contacts.push_back(c);
   }
-  const std::vector<double> mass(n, kMass);
+  const std::vector<double> mass(n, kNodeMass);
   const std::vector<char> held(n, 0);
   const double swept = rms(admissible_contact(contacts, load, mass, held).net_force, mass, held);
   const double best = rms(admissible_forces(contacts, {}, load, mass, held).net_force, mass, held);
@@ -105,9 +105,10 @@ TEST(AdmissibleForces, LeavesNoMoreThanAnyChoiceOfContactForces) {
 }
 
 TEST(AdmissibleForces, HeldNodesTakeAnyForceAndThoseBeyondTheMassesToo) {
-  const AdmissibleContact found = admissible_forces({}, {lift(1, kWeight), lift(7, kWeight)},
-                                                    {Vec3(0, -kWeight, 0), Vec3(1, 0, 0)}, {kMass, kMass}, {0, 1});
-  EXPECT_NEAR(found.net_force[0].norm(), kWeight, 1e-12);
+  const AdmissibleContact found =
+      admissible_forces({}, {lift(1, kNodeWeight), lift(7, kNodeWeight)}, {Vec3(0, -kNodeWeight, 0), Vec3(1, 0, 0)},
+                        {kNodeMass, kNodeMass}, {0, 1});
+  EXPECT_NEAR(found.net_force[0].norm(), kNodeWeight, 1e-12);
   EXPECT_EQ(found.net_force[1].norm(), 0);
 }
 

@@ -13,9 +13,9 @@ using namespace toile;
 
 namespace {
 
-constexpr double kEdge = 0.01;  ///< [m]
-constexpr int kSide = 14;       ///< cells
-const Directional kBending = {9e-6, 4e-6, 7e-6};
+constexpr double kPlateEdge = 0.01;  ///< [m]
+constexpr int kSide = 14;            ///< cells
+const Directional kPlateBending = {9e-6, 4e-6, 7e-6};
 
 struct Mesh {
   Cloth cloth;
@@ -35,7 +35,7 @@ Mesh lattice(double spread, const Fabric& fabric) {
       const double shift = ring == 0 && (i == 0 || i == kSide) ? 0 : 0.5 * (j % 2);
       Vec2 p(i + (i == kSide ? 0 : shift), j * std::sqrt(3.0) / 2);
       if (ring > 0) p += Vec2(moved(random), moved(random));
-      flat.push_back(kEdge * p);
+      flat.push_back(kPlateEdge * p);
       mesh.rings.push_back(ring);
       mesh.cloth.x.emplace_back(flat.back().x(), flat.back().y(), 0);
     }
@@ -57,7 +57,7 @@ Mesh lattice(double spread, const Fabric& fabric) {
   return mesh;
 }
 
-Fabric fabric_of(const Directional& bending) {
+Fabric plate_fabric(const Directional& bending) {
   Fabric f;
   f.bending_stiffness = bending;
   return f;
@@ -100,7 +100,7 @@ std::vector<double> quadratic(const Cloth& cloth, const Vec3& curvature) {
 double largest_gain(const Mesh& mesh, const Vec3& curvature, int from_ring, int to_ring) {
   const Answer a = answer(mesh.cloth, quadratic(mesh.cloth, curvature));
   const double energy =
-      0.5 * kEdge * kEdge * std::sqrt(3.0) / 2 * curvature.dot(directional_tensor(kBending) * curvature);
+      0.5 * kPlateEdge * kPlateEdge * std::sqrt(3.0) / 2 * curvature.dot(directional_tensor(kPlateBending) * curvature);
   double largest = 0;
   for (std::size_t v = 0; v < a.force.size(); ++v)
     if (mesh.rings[v] >= from_ring && mesh.rings[v] <= to_ring)
@@ -111,7 +111,7 @@ double largest_gain(const Mesh& mesh, const Vec3& curvature, int from_ring, int 
 }  // namespace
 
 TEST(BendingBalance, ConstantCurvatureIsInEquilibriumOnAnIrregularMesh) {
-  const Mesh mesh = lattice(0.2, fabric_of(kBending));
+  const Mesh mesh = lattice(0.2, plate_fabric(kPlateBending));
   for (const Vec3& curvature : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 1, 0), Vec3(1, -1, 0.5)}) {
     const double gain = largest_gain(mesh, curvature, 3, kSide);
     std::printf("curvature (%g, %g, %g): a vertex gains %.2e of the energy at most\n", curvature[0], curvature[1],
@@ -121,10 +121,10 @@ TEST(BendingBalance, ConstantCurvatureIsInEquilibriumOnAnIrregularMesh) {
 }
 
 TEST(BendingBalance, EnergyOfConstantCurvatureIsAPlates) {
-  const Mesh mesh = lattice(0.2, fabric_of(kBending));
+  const Mesh mesh = lattice(0.2, plate_fabric(kPlateBending));
   for (const Vec3& curvature : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 1, 0)}) {
     const Answer a = answer(mesh.cloth, quadratic(mesh.cloth, curvature));
-    const double density = 0.5 * curvature.dot(directional_tensor(kBending) * curvature);
+    const double density = 0.5 * curvature.dot(directional_tensor(kPlateBending) * curvature);
     double energy = 0, area = 0;
     for (std::size_t t = 0; t < a.energy.size(); ++t) {
       const Triangle& v = mesh.cloth.triangles[t];
@@ -141,11 +141,11 @@ TEST(BendingBalance, EnergyOfConstantCurvatureIsAPlates) {
 TEST(BendingBalance, FreeEdgesCarryNoForceOfBendingAlongThem) {
   // Rings 0 to 2 away from the corners: bent along the horizontal edges, with the lateral curvature that the coupling
   // of this fabric asks for where the sides are free.
-  const Mesh mesh = lattice(0.2, fabric_of(kBending));
-  const Vec3 curvature = directional_tensor(kBending).inverse() * Vec3(1, 0, 0);
+  const Mesh mesh = lattice(0.2, plate_fabric(kPlateBending));
+  const Vec3 curvature = directional_tensor(kPlateBending).inverse() * Vec3(1, 0, 0);
   const Answer a = answer(mesh.cloth, quadratic(mesh.cloth, curvature));
   const double energy =
-      0.5 * kEdge * kEdge * std::sqrt(3.0) / 2 * curvature.dot(directional_tensor(kBending) * curvature);
+      0.5 * kPlateEdge * kPlateEdge * std::sqrt(3.0) / 2 * curvature.dot(directional_tensor(kPlateBending) * curvature);
   double largest = 0;
   for (std::size_t v = 0; v < a.force.size(); ++v) {
     const int i = static_cast<int>(v) % (kSide + 1);
@@ -157,12 +157,12 @@ TEST(BendingBalance, FreeEdgesCarryNoForceOfBendingAlongThem) {
 }
 
 TEST(BendingBalance, EquilateralTrianglesStayAsTheyAre) {
-  const Mesh mesh = lattice(0, fabric_of(kBending));
+  const Mesh mesh = lattice(0, plate_fabric(kPlateBending));
   EXPECT_LT(largest_gain(mesh, Vec3(1, 0.3, -0.2), 6, kSide), 1e-7);  // the ragged sides' influence dies away
 }
 
 TEST(BendingBalance, LawsSeeTheCurvatureOfTheBalancedForm) {
-  Fabric fabric = fabric_of(kBending);
+  Fabric fabric = plate_fabric(kPlateBending);
   fabric.bending_softening = {3e-3, 2e-3, 2.5e-3};
   const BendingStencils made = bending_stencils(lattice(0.2, fabric).cloth);
   ASSERT_EQ(made.laws.size(), made.stencils.size());

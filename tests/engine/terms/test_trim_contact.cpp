@@ -7,7 +7,7 @@ using namespace toile::test;
 
 namespace {
 
-constexpr double kGyration = 4e-3, kStiffness = 100;
+constexpr double kTrimGyration = 4e-3, kTrimStiffness = 100;
 
 /// A point of the cloth against a trim (side −1), or a point of a trim against the body (side 1).
 TrimContact contact(double side, double friction) {
@@ -25,7 +25,7 @@ TrimContact contact(double side, double friction) {
 }
 
 /// Derivative of exp([r]×) with respect to r, as a rotation vector on the left.
-Mat3 left_jacobian(const Vec3& r) {
+Mat3 trim_left_jacobian(const Vec3& r) {
   const double t = r.norm();
   const Mat3 k = cross_matrix(r);
   if (t < 1e-3) return Mat3::Identity() + (0.5 - t * t / 24) * k + (1.0 / 6 - t * t / 120) * k * k;
@@ -33,20 +33,20 @@ Mat3 left_jacobian(const Vec3& r) {
 }
 
 TrimContactState state(const TrimContact& c, const StencilPoints<5>& x, const Mat3& start) {
-  const Mat3 now = rotation_by(x[4] / kGyration).toRotationMatrix() * start;
-  return trim_contact_state(c, {x[0], x[1], x[2]}, x[3], now, kGyration);
+  const Mat3 now = rotation_by(x[4] / kTrimGyration).toRotationMatrix() * start;
+  return trim_contact_state(c, {x[0], x[1], x[2]}, x[3], now, kTrimGyration);
 }
 
 /// In the chart of rotation vectors about `start`.
 Potential<5> potential(const TrimContact& c, const Mat3& start) {
-  return {[=](const auto& x) { return trim_contact_energy(c, kStiffness, state(c, x, start)); },
+  return {[=](const auto& x) { return trim_contact_energy(c, kTrimStiffness, state(c, x, start)); },
           [=](const auto& x) {
-            StencilVector<5> g = trim_contact_gradient(c, kStiffness, state(c, x, start));
-            g.segment<3>(12) = left_jacobian(x[4] / kGyration).transpose() * g.segment<3>(12);
+            StencilVector<5> g = trim_contact_gradient(c, kTrimStiffness, state(c, x, start));
+            g.segment<3>(12) = trim_left_jacobian(x[4] / kTrimGyration).transpose() * g.segment<3>(12);
             return g;
           },
-          [=](const auto& x) { return trim_contact_hessian(c, kStiffness, state(c, x, start)); },
-          [=](const auto& x) { return trim_contact_hessian_psd(c, kStiffness, state(c, x, start)); }};
+          [=](const auto& x) { return trim_contact_hessian(c, kTrimStiffness, state(c, x, start)); },
+          [=](const auto& x) { return trim_contact_hessian_psd(c, kTrimStiffness, state(c, x, start)); }};
 }
 
 StencilPoints<5> nodes(std::mt19937& random) {
@@ -75,7 +75,7 @@ TEST(TrimContact, DerivativesWithRespectToClothCentreAndRotation) {
       press(smooth, x, start, depth, Vec3::Zero());
       check_derivatives<5>(potential(smooth, start), x, depth, "pressed");
       press(sticking, x, start, depth, 0.1 * depth * Vec3(1, 0, 1));
-      ASSERT_FALSE(contact_response(sticking.contact, kStiffness, state(sticking, x, start).point).sliding);
+      ASSERT_FALSE(contact_response(sticking.contact, kTrimStiffness, state(sticking, x, start).point).sliding);
       check_derivatives<5>(potential(sticking, start), x, 0.3 * depth, "sticking");
     }
 }
@@ -87,11 +87,11 @@ TEST(TrimContact, PartsOfTheSystemAreItsPositiveHessianAndForce) {
   TrimContact c = contact(-1, 0.3);
   press(c, x, start, 1e-3, Vec3(2e-3, 0, 1e-3));
   const TrimContactState at = state(c, x, start);
-  ASSERT_TRUE(contact_response(c.contact, kStiffness, at.point).sliding);
-  const TrimContactResponse r = trim_contact_response(c, kStiffness, at);
-  EXPECT_LT((r.force + trim_contact_gradient(c, kStiffness, at)).norm(), 1e-15);
-  const StencilMatrix<5> psd = trim_contact_hessian_psd(c, kStiffness, at);
-  StencilMatrix<5> exact = trim_contact_hessian(c, kStiffness, at);
+  ASSERT_TRUE(contact_response(c.contact, kTrimStiffness, at.point).sliding);
+  const TrimContactResponse r = trim_contact_response(c, kTrimStiffness, at);
+  EXPECT_LT((r.force + trim_contact_gradient(c, kTrimStiffness, at)).norm(), 1e-15);
+  const StencilMatrix<5> psd = trim_contact_hessian_psd(c, kTrimStiffness, at);
+  StencilMatrix<5> exact = trim_contact_hessian(c, kTrimStiffness, at);
   // Both have the same blocks but for the load on the lever, of which the one keeps what is positive.
   const Mat3 dropped = (psd - exact).block<3, 3>(12, 12);
   exact.block<3, 3>(12, 12) += dropped;
@@ -108,8 +108,8 @@ TEST(TrimContact, ForcesAndTorquesBalanceWhereItWasDetectedFrictionIncluded) {
   const Vec3 on_cloth = 0.2 * x[0] + 0.5 * x[1] + 0.3 * x[2];
   c.point = start.transpose() * (on_cloth - x[3]);
   press(c, x, start, 1e-3, Vec3(2e-3, 0, 1e-3));
-  const StencilVector<5> g = trim_contact_gradient(c, kStiffness, state(c, x, start));
-  Vec3 force = Vec3::Zero(), torque = kGyration * g.segment<3>(12);
+  const StencilVector<5> g = trim_contact_gradient(c, kTrimStiffness, state(c, x, start));
+  Vec3 force = Vec3::Zero(), torque = kTrimGyration * g.segment<3>(12);
   for (int i = 0; i < 4; ++i) {
     force += g.segment<3>(3 * i);
     torque += (x[i] - x[3]).cross(g.segment<3>(3 * i));
@@ -126,7 +126,7 @@ TEST(TrimContact, AnOpenOneDoesNothing) {
   TrimContact c = contact(1, 0.4);
   press(c, x, start, -1e-5, Vec3(1e-3, 0, 0));
   const TrimContactState at = state(c, x, start);
-  EXPECT_EQ(trim_contact_energy(c, kStiffness, at), 0);
-  EXPECT_EQ(trim_contact_gradient(c, kStiffness, at).norm(), 0);
-  EXPECT_EQ(trim_contact_hessian_psd(c, kStiffness, at).norm(), 0);
+  EXPECT_EQ(trim_contact_energy(c, kTrimStiffness, at), 0);
+  EXPECT_EQ(trim_contact_gradient(c, kTrimStiffness, at).norm(), 0);
+  EXPECT_EQ(trim_contact_hessian_psd(c, kTrimStiffness, at).norm(), 0);
 }
