@@ -10,6 +10,7 @@ namespace toile {
 namespace {
 
 constexpr double kLogarithmBelow = 0.5;  // of the distance; elsewhere the stiffness would jump
+constexpr double kInside = 5;            // times the stiffness
 constexpr double kLinearBelow = 1e-3;    // of the distance
 
 struct Repulsion {
@@ -19,6 +20,11 @@ struct Repulsion {
 Repulsion repulsion(const Contact& c, double k, double gap) {
   const double depth = c.distance - gap, turn = kLogarithmBelow * c.distance;
   if (depth <= 0 && !c.bilateral) return {};
+  if (!c.between_layers && !c.bilateral && c.distance > 0 && gap < 0) {
+    const double stiff = kInside * k, at_surface = k * c.distance;
+    return {0.5 * at_surface * c.distance - at_surface * gap + 0.5 * stiff * gap * gap, at_surface - stiff * gap,
+            stiff};
+  }
   if (!c.between_layers || gap >= turn) return {0.5 * k * depth * depth, k * depth, k};
   const double least = kLinearBelow * c.distance, at = std::max(gap, least), below = at - gap;
   const double scale = k * turn * turn, push = scale / at, slope = push / at;

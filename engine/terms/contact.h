@@ -13,6 +13,8 @@ namespace toile {
 ///               distance² (½ − ln(2 gap/distance)), N = ¼ k distance²/gap, twice differentiable where they meet
 ///               [Offset Geometric Contact, SIGGRAPH 2025, §3.3]; nearer than distance/1000, which only trial states of
 ///               the line search reach, N grows linearly, so that it is finite everywhere.
+///               Beyond the surface of a body (gap < 0 < distance) it goes on five times as stiff: seams that are tight
+///               over an edge of a limb pull with newtons, too.
 ///   friction    u = (I − n nᵀ)(p − anchor), an elastic–plastic spring: force −k u while k |u| ≤ μ N (sticks, with the
 ///               energy ½ k |u|²), else −μ N u/|u| (slides)   [Coulomb; anchored springs after Yamane & Nakamura 2006].
 /// A bilateral contact has d of either sign, E = ½ k d² and N = k |d|.

@@ -84,6 +84,15 @@ TEST(ContactTerm, RepulsionBetweenLayersGrowsBeyondAnyLoad) {
   EXPECT_NEAR(contact_response(c, kStiffness, gap * c.normal).normal_force, load, 1e-9 * load);
 }
 
+TEST(ContactTerm, InsideABodyRepulsionIsFiveTimesAsStiff) {
+  Contact c = vertex_triangle(0);
+  for (double gap : {0.2e-3, -0.1e-3, -3e-3})
+    check_derivatives<4>(potential(c), nodes_for(c, c.distance - gap, Vec3::Zero()), std::abs(gap), "inside");
+  const auto force = [&](double gap) { return contact_response(c, kStiffness, gap * c.normal).normal_force; };
+  EXPECT_NEAR(force(-1e-12), kStiffness * c.distance, 1e-9);
+  EXPECT_NEAR(force(-1e-3) - force(0), 5 * kStiffness * 1e-3, 1e-12);
+}
+
 TEST(ContactTerm, ABilateralContactPullsBackWhatLeaves) {
   Contact c = vertex_triangle(0);
   c.bilateral = true;
