@@ -1,6 +1,8 @@
 #pragma once
 // Loops over disjoint outputs on oneTBB.
 
+#include "engine/parallel/fork_join.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -16,9 +18,16 @@ void parallel_ranges(int count, int grain, const Body& body) {
     body(0, count);
     return;
   }
+  ForkJoin order;
   tbb::parallel_for(
-      tbb::blocked_range<int>(0, count, grain), [&](const tbb::blocked_range<int>& r) { body(r.begin(), r.end()); },
+      tbb::blocked_range<int>(0, count, grain),
+      [&](const tbb::blocked_range<int>& r) {
+        order.begin_task();
+        body(r.begin(), r.end());
+        order.end_task();
+      },
       tbb::simple_partitioner());
+  order.join();
 }
 
 /// Calls body(index) for every index in [0, count); see parallel_ranges.

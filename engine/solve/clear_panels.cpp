@@ -6,6 +6,7 @@
 #include "engine/scene/problem.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace toile {
@@ -66,7 +67,8 @@ class CrossingCheck {
     }
     const Bvh bvh(boxes);
     bool found = false;
-    for (const auto& [a, b] : edges_of.edges) {
+    for (const std::array<int, 2>& edge : edges_of.edges) {
+      const int a = edge[0], b = edge[1];
       Box box{cloth_.x[a].cwiseMin(cloth_.x[b]), cloth_.x[a].cwiseMax(cloth_.x[b])};
       bvh.query(box, [&](int i) {
         if (found) return;
@@ -130,7 +132,7 @@ void clear_panels(Cloth& apart, const std::vector<const BodyField*>& field, doub
     if (moved > 0)
       apart.warnings.push_back("panel '" + apart.panels[p].name +
                                "' started inside the body or through another and was moved " +
-                               std::to_string(static_cast<int>(moved * 1000 + 0.5)) + " mm outwards");
+                               std::to_string(std::lround(moved * 1000)) + " mm outwards");
   }
 }
 

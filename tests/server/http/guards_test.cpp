@@ -12,6 +12,13 @@ namespace {
 using testing::HasSubstr;
 using Guards = ServiceFixture;
 
+/// A sanitizer's own records count as resident, several times what they are of.
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+constexpr bool kMemoryTells = false;
+#else
+constexpr bool kMemoryTells = true;
+#endif
+
 long resident_kib() {
   std::ifstream status("/proc/self/status");
   std::string word;
@@ -74,7 +81,7 @@ TEST_F(Guards, AHugeBodyIsRefusedByItsLengthBeforeAByteIsRead) {
     EXPECT_EQ(answer.status, 413) << length;
     EXPECT_THAT(answer.body, HasSubstr("67108864"));
   }
-  EXPECT_LT(resident_kib() - before, 32 * 1024);
+  if (kMemoryTells) EXPECT_LT(resident_kib() - before, 32 * 1024);
 }
 
 TEST_F(Guards, ExpectContinueIsAnsweredByTheRefusal) {
