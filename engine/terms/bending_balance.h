@@ -36,7 +36,7 @@ struct FlatBending {
 /// mesh admits both: where four triangles make a square, by symmetry one entry of X is free (between the hinge on the
 /// square's edge and the two others), and the value at which the forces cancel leaves 1 + X singular: the middles of
 /// all squares could rise over their corners for nothing. No quadratic form of six nodes does better there. So X is
-/// scaled down where it must be to keep 1 + X within [0.2, 3], and such a grid bends with 93 to 95 %. Returns S = √(1 +
+/// scaled down where it must be to keep 1 + X within [0.3, 3], and such a grid bends with 93 to 95 %. Returns S = √(1 +
 /// X) per stencil: K = (S F)ᵀ (S F).
 std::vector<Mat3> balanced(std::span<const FlatBending> stencils, std::size_t vertices);
 
