@@ -81,7 +81,9 @@ TEST_F(Guards, AHugeBodyIsRefusedByItsLengthBeforeAByteIsRead) {
     EXPECT_EQ(answer.status, 413) << length;
     EXPECT_THAT(answer.body, HasSubstr("67108864"));
   }
-  if (kMemoryTells) EXPECT_LT(resident_kib() - before, 32 * 1024);
+  if (kMemoryTells) {
+    EXPECT_LT(resident_kib() - before, 32 * 1024);
+  }
 }
 
 TEST_F(Guards, ExpectContinueIsAnsweredByTheRefusal) {
