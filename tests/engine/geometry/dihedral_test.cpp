@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <type_traits>
 
 namespace toile {
 namespace {
@@ -34,9 +35,9 @@ Hinge random_hinge(std::mt19937& random) {
 
 /// Fourth-order central differences: at h = 1e-3 of the smallest height, error about 1e-11 relative.
 template <typename F>
-auto difference(F&& f, const Hinge& h, int i, double step) {
-  return ((8 * (f(moved(h, i, step)) - f(moved(h, i, -step))) - f(moved(h, i, 2 * step)) + f(moved(h, i, -2 * step))) /
-          (12 * step));
+std::invoke_result_t<F, const Hinge&> difference(F&& f, const Hinge& h, int i, double step) {
+  return (8 * (f(moved(h, i, step)) - f(moved(h, i, -step))) - f(moved(h, i, 2 * step)) + f(moved(h, i, -2 * step))) /
+         (12 * step);
 }
 
 /// Differences of an angle that may pass ±π.
