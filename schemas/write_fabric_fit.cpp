@@ -30,31 +30,8 @@ std::string source_of(const FabricFit& fit, const std::string& base) {
   return text.append(".");
 }
 
-struct Unit {
-  const char* key;
-  double size;
-};
-
-Unit unit_of(MisfitRow::Quantity quantity) {
-  switch (quantity) {
-    case MisfitRow::Quantity::force:
-      return {"force_N_m", 1};
-    case MisfitRow::Quantity::angle:
-      return {"angle_deg", std::numbers::pi / 180};
-    case MisfitRow::Quantity::drop:
-      return {"drop_mm", 1e-3};
-    case MisfitRow::Quantity::height:
-      return {"height_mm", 1e-3};
-    case MisfitRow::Quantity::bending:
-      return {"bending_uN_m", 1e-6};
-    case MisfitRow::Quantity::shear:
-      return {"shear_N_m", 1};
-  }
-  return {"", 1};
-}
-
 json document(const MisfitRow& row) {
-  const Unit unit = unit_of(row.quantity);
+  const FitUnit unit = unit_of(row.quantity);
   json result = {{"measurement", row.pointer},
                  {"quantity", unit.key},
                  {"measured", row.measured / unit.size},
@@ -67,8 +44,7 @@ json document(const MisfitRow& row) {
 }
 
 json document(const ParameterEstimate& e) {
-  const double unit = e.pointer.rfind("/bending_uN_m/", 0) == 0 ? 1e-6 : 1;
-  json result = {{"key", e.pointer}, {"value", e.value / unit}, {"determined", e.determined}};
+  json result = {{"key", e.pointer}, {"value", e.value / unit_of(e).size}, {"determined", e.determined}};
   result["standard_error_percent"] = std::isfinite(e.standard_error) ? json(100 * e.standard_error) : json();
   if (e.strain) result["strain_percent"] = 100 * *e.strain;
   return result;
@@ -94,6 +70,29 @@ json document(const FitPart& part) {
 }
 
 }  // namespace
+
+FitUnit unit_of(MisfitRow::Quantity quantity) {
+  switch (quantity) {
+    case MisfitRow::Quantity::force:
+      return {"force_N_m", "N/m", 1};
+    case MisfitRow::Quantity::angle:
+      return {"angle_deg", "deg", std::numbers::pi / 180};
+    case MisfitRow::Quantity::drop:
+      return {"drop_mm", "mm", 1e-3};
+    case MisfitRow::Quantity::height:
+      return {"height_mm", "mm", 1e-3};
+    case MisfitRow::Quantity::bending:
+      return {"bending_uN_m", "uN m", 1e-6};
+    case MisfitRow::Quantity::shear:
+      return {"shear_N_m", "N/m", 1};
+  }
+  return {"", "", 1};
+}
+
+FitUnit unit_of(const ParameterEstimate& parameter) {
+  const bool bending = parameter.pointer.rfind("/bending_uN_m/", 0) == 0;
+  return unit_of(bending ? MisfitRow::Quantity::bending : MisfitRow::Quantity::force);
+}
 
 json write_fabric(const FabricFit& fit, const json& measurements) {
   const std::string base = measurements.value("base", "poplin");

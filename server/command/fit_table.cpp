@@ -1,9 +1,10 @@
 #include "server/command/fit_table.h"
 
+#include "schemas/write_fabric_fit.h"
+
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 namespace toile {
 namespace {
@@ -15,35 +16,14 @@ void line(std::string& text, const char* format, Values... values) {
   text += buffer.data();
 }
 
-struct Unit {
-  const char* name;
-  double size;
-};
-
-Unit unit_of(MisfitRow::Quantity quantity) {
-  switch (quantity) {
-    case MisfitRow::Quantity::force:
-    case MisfitRow::Quantity::shear:
-      return {"N/m", 1};
-    case MisfitRow::Quantity::angle:
-      return {"deg", std::numbers::pi / 180};
-    case MisfitRow::Quantity::drop:
-    case MisfitRow::Quantity::height:
-      return {"mm", 1e-3};
-    case MisfitRow::Quantity::bending:
-      return {"uN m", 1e-6};
-  }
-  return {"", 1};
-}
-
 void add_misfit(const FabricFit& fit, std::string& text) {
   line(text, "  %-30s %10s %12s %12s %-5s %9s\n", "measurement", "strain", "measured", "fitted", "", "off by");
   for (const MisfitRow& row : fit.misfit) {
-    const Unit unit = unit_of(row.quantity);
+    const FitUnit unit = unit_of(row.quantity);
     std::string strain;
     if (row.strain) line(strain, "%.2f %%", 100 * *row.strain);
     line(text, "  %-30s %10s %12.5g %12.5g %-5s %+7.2f %%\n", row.pointer.c_str(), strain.c_str(),
-         row.measured / unit.size, row.fitted / unit.size, unit.name, 100 * (row.fitted / row.measured - 1));
+         row.measured / unit.size, row.fitted / unit.size, unit.symbol, 100 * (row.fitted / row.measured - 1));
   }
   line(text, "  rms %.2f %%, %.2f times the uncertainty\n\n", 100 * fit.rms, fit.rms_over_uncertainty);
 }
@@ -51,11 +31,10 @@ void add_misfit(const FabricFit& fit, std::string& text) {
 void add_parameters(const FitPart& part, std::string& text) {
   for (const ParameterEstimate& e : part.parameters) {
     std::string value, error = "unknown";
-    const bool bending = e.pointer.rfind("/bending", 0) == 0;
     if (e.strain)
       line(value, "x %.3f at %.2f %%", e.value, 100 * *e.strain);
     else
-      line(value, "%.5g %s", e.value / (bending ? 1e-6 : 1), bending ? "uN m" : "N/m");
+      line(value, "%.5g %s", e.value / unit_of(e).size, unit_of(e).symbol);
     if (std::isfinite(e.standard_error)) error.clear(), line(error, "+- %.2g %%", 100 * e.standard_error);
     line(text, "  %-30s %-24s %s\n", e.pointer.c_str(), value.c_str(), error.c_str());
   }
