@@ -82,16 +82,22 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   for (const HeldVertex& held : held_points) kinematic.held[held.vertex] = 1;
   const double moving_until = std::max(last_key_frame(scene.held), options.relaxation_time);
 
+  std::vector<Contact> contacts;
+  std::vector<TrimContact> trim_contacts;
+  const auto detect = [&] {
+    const Clock::time_point begun = Clock::now();
+    contacts = touching.detect(state.x);
+    trim_contacts = trim_touching.detect(state.x, state.trims);
+    result.times.collisions += seconds_since(begun);
+  };
+
   double t = 0, next_force_check = 0;
   bool balanced = false;
   std::vector<double> energy(vertices, 0.0);
   result.stop_reason = "time_limit";
+  detect();
   while (t < options.simulated_time_limit) {
-    const Clock::time_point begun = Clock::now();
     const double h = time_step.h();
-    std::vector<Contact> contacts = touching.detect(state.x);
-    std::vector<TrimContact> trim_contacts = trim_touching.detect(state.x, state.trims);
-    result.times.collisions += seconds_since(begun);
     for (const HeldVertex& held : held_points) kinematic.target[held.vertex] = position_at(held, t + h);
 
     const Positions v_before = state.v;
@@ -109,6 +115,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
       touching.remember(contacts, state.x);
       trim_touching.remember(trim_contacts, state.x, state.trims);
       if (relaxing(t, options)) stop(state);
+      detect();
       t += h;
       ++result.steps;
       time_step.accepted();
@@ -123,7 +130,8 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
         quiet = false;
       }
       if (quiet && t >= moving_until && options.rest_residual > 0) {
-        // The check costs about half a step, so it is not made at each one.
+        // The check costs about half a step, so it is not made at each one. It is that of the result: with the contacts
+        // as they are found where the step led, not those that it was made with.
         if (t >= next_force_check) {
           balanced = rms_residual(solver.static_forces(state.x, contacts, state.trims, trim_contacts), solver.masses(),
                                   kinematic.held) < options.rest_residual;
@@ -142,6 +150,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
       state.x = before;
       state.v = v_before;
       state.trims = trims_before;
+      detect();
       time_step.rejected();
       if (time_step.too_small()) {
         result.stop_reason = "step_too_small";
@@ -160,8 +169,8 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   result.times.linear_solve = step_times.linear_solve;
   result.times.line_search = step_times.line_search;
   for (double e : energy) result.kinetic_energy += e;
-  result.contacts = touching.detect(state.x);
-  result.trim_contacts = trim_touching.detect(state.x, state.trims);
+  result.contacts = std::move(contacts);
+  result.trim_contacts = std::move(trim_contacts);
   result.net_force = solver.static_forces(state.x, result.contacts, state.trims, result.trim_contacts);
   result.trims = state.trims;
   result.contact_force = solver.contact_forces(state.x, result.contacts, state.trims, result.trim_contacts);

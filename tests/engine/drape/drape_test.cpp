@@ -54,6 +54,9 @@ void expect_consistent(const Drape& drape, const Scene& scene) {
     EXPECT_GE(r.energies.size(), 4u);
   }
   EXPECT_GE(r.residual_max, r.residual_rms);
+  if (r.stop_reason == "at_rest" && scene.solver.rest_residual > 0) {
+    EXPECT_LT(r.residual_rms, scene.solver.rest_residual) << "said to be in balance";
+  }
   EXPECT_GE(r.kinetic_energy, 0);
   const StageTimes& t = r.time;
   for (double part : {t.assemble, t.collisions, t.derivatives, t.assembly, t.linear_solve, t.line_search, t.other})
@@ -79,7 +82,6 @@ TEST(Drape, ASkirtOnACylinderConvergesAndReportsWhatItIsWorth) {
   EXPECT_GE(r.newton_iterations, r.steps);
   EXPECT_GT(r.cg_iterations, 0);
   EXPECT_NEAR(r.simulated_time, scene.solver.max_time_step * static_cast<double>(r.steps), 0.5 * r.simulated_time);
-  EXPECT_LT(r.residual_rms, 0.1);
   EXPECT_TRUE(result.cloth.seam_pairs.empty());
 }
 
