@@ -24,10 +24,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The words of /proc/PID/stat after the command's name, the first being the state.
+/// The words of /proc/PID/stat after the command's name, the first being the state; none of a process that has ended.
 std::vector<std::string> stat_of(pid_t pid) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-  std::string text((std::istreambuf_iterator<char>(file)), {});
+  std::string text;
+  std::getline(file, text, '\0');  // the buffer's own iterator throws where the process ends between open and read
   std::istringstream words(text.substr(std::min(text.rfind(')') + 1, text.size())));
   std::vector<std::string> list;
   for (std::string word; words >> word;) list.push_back(word);
