@@ -50,6 +50,15 @@ MeasuredPull small_pull(bool as_curve) {
   return test;
 }
 
+/// A strip whose overhang hangs at 41.5°: D = ρ g (overhang/2)³.
+MeasuredCantilever at_peirces_angle(double overhang, double width) {
+  MeasuredCantilever test;
+  test.overhang = overhang;
+  test.width = width;
+  test.value = kPeirceAngle;
+  return test;
+}
+
 void print(const char* name, double reference, double ours) {
   std::printf("%s: reference %.5g, ours %.5g, error %.2f %%\n", name, reference, ours, 100 * (ours / reference - 1));
 }
@@ -94,11 +103,7 @@ TEST(FitFabric, NoiseOfTwoPerCentIsAMisfitOfTwoPerCentAndDoesNotDerail) {
 TEST(FitFabric, OverhangAt41Point5DegreesIsPeircesStiffness) {
   Silent monitor;
   FabricMeasurements m = with_base();
-  MeasuredCantilever test;
-  test.overhang = 0.05;
-  test.width = 0.025;
-  test.value = kPeirceAngle;
-  m.cantilevers[at(Direction::warp)] = test;
+  m.cantilevers[at(Direction::warp)] = at_peirces_angle(0.05, 0.025);
   const double expected = 0.2 * kGravity * std::pow(0.025, 3);
   const FabricFit fit = fit_fabric(m, 0, monitor);
   EXPECT_EQ(fit.status, "fitted");
@@ -206,11 +211,7 @@ TEST(FitFabric, WhatIsNotMeasuredIsTheBasesAndSaidSo) {
 TEST(FitFabric, TwoTestsThatContradictEachOtherAreNotFitted) {
   Silent monitor;
   FabricMeasurements m = with_base();
-  MeasuredCantilever test;
-  test.overhang = 0.06;
-  test.width = 0.02;
-  test.value = kPeirceAngle;
-  m.cantilevers[at(Direction::warp)] = test;
+  m.cantilevers[at(Direction::warp)] = at_peirces_angle(0.06, 0.02);
   m.bending[at(Direction::warp)] = MeasuredStiffness{10 * 0.2 * kGravity * std::pow(0.03, 3)};
   const FabricFit fit = fit_fabric(m, 0, monitor);
   EXPECT_EQ(fit.status, "not_fitted");

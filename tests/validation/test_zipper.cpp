@@ -19,15 +19,7 @@ namespace {
 /// Two halves of a front, 0.12 m by 0.3 m each, that meet in a zipper and hang by the middles of their tops, whose pins
 /// draw the tops apart: an open front.
 Scene open_front(double closed_fraction) {
-  Panel left = rectangle_panel("left", 0.12, 0.3), right = rectangle_panel("right", 0.12, 0.3);
-  left.translation = Vec3(-0.062, 1, 0);
-  right.translation = Vec3(0.062, 1, 0);
-  Scene scene;
-  scene.garments = {garment_of(Pattern{{left, right}, {}}, 0.02)};
-  Zipper zipper;
-  zipper.sides = {PinEdge{0, 1}, PinEdge{1, 3}};
-  zipper.closed_fraction = closed_fraction;
-  scene.garments[0].zippers = {zipper};
+  Scene scene = zipped_halves(0.12, 0.3, 0.3, 4e-3, closed_fraction, 1);
   for (const double side : {-1.0, 1.0})
     scene.garments[0].pins.push_back(
         {PinBox{Vec3(side * 0.06 - 0.065, 1.2999, -1), Vec3(side * 0.06 + 0.065, 1.31, 1)},

@@ -12,18 +12,7 @@ namespace {
 
 using namespace test;
 
-Scene zipped(double closed_fraction) {
-  Panel left = rectangle_panel("left", 0.1, 0.2), right = rectangle_panel("right", 0.1, 0.19);
-  left.translation.x() = -0.051;
-  right.translation.x() = 0.051;
-  Scene scene;
-  scene.garments = {garment_of(Pattern{{left, right}, {}}, 0.02)};
-  Zipper zipper;
-  zipper.sides = {PinEdge{0, 1}, PinEdge{1, 3}};
-  zipper.closed_fraction = closed_fraction;
-  scene.garments[0].zippers = {zipper};
-  return scene;
-}
+Scene zipped(double closed_fraction) { return zipped_halves(0.1, 0.2, 0.19, 2e-3, closed_fraction); }
 
 std::string zipper_problem_of(const Scene& scene) {
   try {

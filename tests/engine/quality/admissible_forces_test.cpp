@@ -1,5 +1,7 @@
 #include "engine/quality/admissible_forces.h"
 
+#include "tests/engine/quality/slope_contact.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +10,7 @@
 namespace toile {
 namespace {
 
-constexpr double kNodeMass = 1e-3, kNodeWeight = kNodeMass * kGravity;
+using namespace test;
 
 double rms(const Positions& net, const std::vector<double>& mass, const std::vector<char>& held) {
   double sum = 0;
@@ -16,16 +18,6 @@ double rms(const Positions& net, const std::vector<double>& mass, const std::vec
   for (std::size_t v = 0; v < mass.size(); ++v)
     if (!held[v]) sum += std::pow(net[v].norm() / (mass[v] * kGravity), 2), ++count;
   return std::sqrt(sum / count);
-}
-
-Contact slope_contact(int vertex, double slope, double friction) {
-  Contact c;
-  c.nodes = {vertex, 0, 0, 0};
-  c.weights = {1, 0, 0, 0};
-  c.count = 1;
-  c.normal = Vec3(std::sin(slope), std::cos(slope), 0);
-  c.friction = friction;
-  return c;
 }
 
 /// Pushes one node along y with up to `force`.

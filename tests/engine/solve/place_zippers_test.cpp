@@ -15,18 +15,7 @@ using namespace test;
 
 constexpr double kLength = 0.2;
 
-Scene zipped(double closed_fraction) {
-  Panel left = rectangle_panel("left", 0.1, kLength), right = rectangle_panel("right", 0.1, kLength);
-  left.translation.x() = -0.05;
-  right.translation.x() = 0.05;
-  Scene scene;
-  scene.garments = {garment_of(Pattern{{left, right}, {}}, 0.02)};
-  Zipper zipper;
-  zipper.sides = {PinEdge{0, 1}, PinEdge{1, 3}};
-  zipper.closed_fraction = closed_fraction;
-  scene.garments[0].zippers = {zipper};
-  return scene;
-}
+Scene zipped(double closed_fraction) { return zipped_halves(0.1, kLength, kLength, 0, closed_fraction); }
 
 Cloth sewn(const Scene& scene) {
   Cloth cloth = build_cloth(scene);

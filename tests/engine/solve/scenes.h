@@ -53,6 +53,21 @@ inline Garment garment_of(Pattern pattern, double edge_length, std::string name 
   return garment;
 }
 
+/// Two halves of a front whose panels' inner edges, apart by `gap`, meet in a zipper.
+inline Scene zipped_halves(double width, double left_height, double right_height, double gap, double closed_fraction,
+                           double bottom = 0) {
+  Panel left = rectangle_panel("left", width, left_height), right = rectangle_panel("right", width, right_height);
+  left.translation = Vec3(-0.5 * (width + gap), bottom, 0);
+  right.translation = Vec3(0.5 * (width + gap), bottom, 0);
+  Scene scene;
+  scene.garments = {garment_of(Pattern{{left, right}, {}}, 0.02)};
+  Zipper zipper;
+  zipper.sides = {PinEdge{0, 1}, PinEdge{1, 3}};
+  zipper.closed_fraction = closed_fraction;
+  scene.garments[0].zippers = {zipper};
+  return scene;
+}
+
 /// Upright, radius 0.1 m, from y = −0.5 to 0.5.
 inline Body cylinder_body(double radius = 0.1) {
   return {CylinderBody{Vec3(0, -0.5, 0), Vec3(0, 0.5, 0), radius}, 0.3};

@@ -1,6 +1,6 @@
-#include "engine/geometry/rotation.h"
 #include "engine/terms/attachment.h"
 #include "tests/engine/terms/check_term.h"
+#include "tests/engine/terms/rotation_chart.h"
 
 using namespace toile;
 using namespace toile::test;
@@ -9,14 +9,6 @@ namespace {
 
 constexpr double kGyration = 4e-3;
 const AttachmentStencil kSpring{{0, 1, 2}, {0.2, 0.5, 0.3}, 0, Vec3(3e-3, -2e-3, 1e-3), 800, 0.01};
-
-/// Derivative of exp([r]×) with respect to r, as a rotation vector on the left: ∂(exp(r) a) = (J ∂r) × exp(r) a.
-Mat3 left_jacobian(const Vec3& r) {
-  const double t = r.norm();
-  const Mat3 k = cross_matrix(r);
-  if (t < 1e-3) return Mat3::Identity() + (0.5 - t * t / 24) * k + (1.0 / 6 - t * t / 120) * k * k;
-  return Mat3::Identity() + (1 - std::cos(t)) / (t * t) * k + (t - std::sin(t)) / (t * t * t) * k * k;
-}
 
 AttachmentState state(const StencilPoints<5>& x, const Mat3& start) {
   const Mat3 now = rotation_by(x[4] / kGyration).toRotationMatrix() * start;

@@ -1,6 +1,6 @@
-#include "engine/geometry/rotation.h"
 #include "engine/terms/trim_contact.h"
 #include "tests/engine/terms/check_term.h"
+#include "tests/engine/terms/rotation_chart.h"
 
 using namespace toile;
 using namespace toile::test;
@@ -24,14 +24,6 @@ TrimContact contact(double side, double friction) {
   return c;
 }
 
-/// Derivative of exp([r]×) with respect to r, as a rotation vector on the left.
-Mat3 trim_left_jacobian(const Vec3& r) {
-  const double t = r.norm();
-  const Mat3 k = cross_matrix(r);
-  if (t < 1e-3) return Mat3::Identity() + (0.5 - t * t / 24) * k + (1.0 / 6 - t * t / 120) * k * k;
-  return Mat3::Identity() + (1 - std::cos(t)) / (t * t) * k + (t - std::sin(t)) / (t * t * t) * k * k;
-}
-
 TrimContactState state(const TrimContact& c, const StencilPoints<5>& x, const Mat3& start) {
   const Mat3 now = rotation_by(x[4] / kTrimGyration).toRotationMatrix() * start;
   return trim_contact_state(c, {x[0], x[1], x[2]}, x[3], now, kTrimGyration);
@@ -42,7 +34,7 @@ Potential<5> potential(const TrimContact& c, const Mat3& start) {
   return {[=](const auto& x) { return trim_contact_energy(c, kTrimStiffness, state(c, x, start)); },
           [=](const auto& x) {
             StencilVector<5> g = trim_contact_gradient(c, kTrimStiffness, state(c, x, start));
-            g.segment<3>(12) = trim_left_jacobian(x[4] / kTrimGyration).transpose() * g.segment<3>(12);
+            g.segment<3>(12) = left_jacobian(x[4] / kTrimGyration).transpose() * g.segment<3>(12);
             return g;
           },
           [=](const auto& x) { return trim_contact_hessian(c, kTrimStiffness, state(c, x, start)); },
