@@ -14,9 +14,9 @@ ContactState contact_state(std::span<const Contact> contacts, double stiffness, 
     if (!(response.normal_force > 0)) continue;
     ++state.pressing;
     if (c.friction > 0 && !response.sliding) ++state.sticking;
-    state.repulsion_energy += 0.5 * response.normal_force * response.normal_force / stiffness;
-    const double friction_force = (response.force - response.normal_force * c.normal).norm();
-    state.friction_energy += 0.5 * friction_force * friction_force / stiffness;
+    const StoredEnergy stored = stored_energy(c, stiffness, p);
+    state.repulsion_energy += stored.repulsion;
+    state.friction_energy += stored.friction;
   }
   return state;
 }

@@ -11,8 +11,8 @@ namespace toile {
 struct ContactState {
   long pressing = 0;            ///< contacts with a normal force
   long sticking = 0;            ///< of these, with friction inside the Coulomb cone; without friction there are none
-  double repulsion_energy = 0;  ///< Σ ½ k (distance − gap)² [J]
-  double friction_energy = 0;   ///< stored in the tangential springs, Σ ½ k min(|u|, μN/k)² [J] (terms/contact.h)
+  double repulsion_energy = 0;  ///< [J] (terms/contact.h)
+  double friction_energy = 0;   ///< stored in the tangential springs, Σ ½ k min(|u|, μN/k)² [J]
 };
 
 /// Of frozen contacts at positions x, with the repulsion's stiffness k [N/m]. Anchors tell friction: contacts that are

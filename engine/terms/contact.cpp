@@ -60,10 +60,16 @@ Vec3 contact_point(const Contact& c, const Positions& x) {
 
 double contact_gap(const Contact& c, const Positions& x) { return c.normal.dot(contact_point(c, x)) - c.offset; }
 
-double contact_energy(const Contact& c, double stiffness, const Vec3& p) {
+StoredEnergy stored_energy(const Contact& c, double stiffness, const Vec3& p) {
   const Split s = split(c, stiffness, p);
   const double held = std::min(s.slip_length, s.limit);
-  return s.repulsion.energy + 0.5 * stiffness * held * held + stiffness * s.limit * (s.slip_length - held);
+  return {s.repulsion.energy, 0.5 * stiffness * held * held};
+}
+
+double contact_energy(const Contact& c, double stiffness, const Vec3& p) {
+  const Split s = split(c, stiffness, p);
+  const StoredEnergy stored = stored_energy(c, stiffness, p);
+  return stored.repulsion + stored.friction + stiffness * s.limit * std::max(0.0, s.slip_length - s.limit);
 }
 
 ContactResponse contact_response(const Contact& c, double stiffness, const Vec3& p) {

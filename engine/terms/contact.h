@@ -34,6 +34,12 @@ Vec3 contact_point(const Contact& c, const Positions& x);
 /// gap(x) [m]
 double contact_gap(const Contact& c, const Positions& x);
 
+/// What a contact stores [J]: in repulsion, and in the tangential spring, at most as much as at the cone.
+struct StoredEnergy {
+  double repulsion = 0, friction = 0;
+};
+StoredEnergy stored_energy(const Contact& c, double stiffness, const Vec3& p);
+
 /// Repulsion's energy [J] and, while the contact sticks, the tangential spring's; a sliding contact counts the spring's
 /// energy at the cone (½ (μN)²/k) plus μN times the distance beyond it, whose gradient at fixed N is the force.
 double contact_energy(const Contact& c, double stiffness, const Vec3& p);
