@@ -20,6 +20,12 @@ Vec3 into_cone(const Vec3& force, const Vec3& normal, double friction) {
   return pressure * (normal + friction * tangent / across);
 }
 
+/// The nearest force that a contact can exert: a bilateral one also pulls.
+Vec3 admissible(const Vec3& force, const Contact& c) {
+  const bool pulls = c.bilateral && force.dot(c.normal) < 0;
+  return into_cone(force, pulls ? Vec3(-c.normal) : c.normal, c.friction);
+}
+
 }  // namespace
 
 AdmissibleContact admissible_contact(const std::vector<Contact>& contacts, const Positions& other_force,
@@ -47,7 +53,7 @@ AdmissibleContact admissible_contact(const std::vector<Contact>& contacts, const
       Vec3 gradient = Vec3::Zero();
       for (int i = 0; i < c.count; ++i) gradient += scale[c.nodes[i]] * c.weights[i] * net[c.nodes[i]];
       Vec3& force = result.contact_force[k];
-      const Vec3 better = into_cone(force - gradient / curvature[k], c.normal, c.friction);
+      const Vec3 better = admissible(force - gradient / curvature[k], c);
       for (int i = 0; i < c.count; ++i) net[c.nodes[i]] += c.weights[i] * (better - force);
       force = better;
     }
@@ -64,10 +70,10 @@ AdmissibleContact admissible_contact(const std::vector<Contact>& contacts, const
 ContactCount count_contacts(std::span<const Contact> contacts, std::span<const Vec3> force) {
   ContactCount count;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const double pressure = force[k].dot(contacts[k].normal);
+    const double push = force[k].dot(contacts[k].normal), pressure = contacts[k].bilateral ? std::abs(push) : push;
     if (!(pressure > 0)) continue;
     ++count.pressing;
-    const double rubbing = (force[k] - pressure * contacts[k].normal).norm();
+    const double rubbing = (force[k] - push * contacts[k].normal).norm();
     if (rubbing < kInsideCone * contacts[k].friction * pressure) ++count.sticking;
   }
   return count;

@@ -243,12 +243,24 @@ class BarrierMethod {
   bool analysed_ = false;
 };
 
+/// Bilateral contacts turned to the side on which they carry something if moments carry nothing: the barrier's sets are
+/// convex.
+std::vector<Contact> one_sided(std::vector<Contact> contacts, const Positions& other_force,
+                               const std::vector<double>& mass, const std::vector<char>& held) {
+  if (std::none_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.bilateral; })) return contacts;
+  const AdmissibleContact swept = admissible_contact(contacts, other_force, mass, held);
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    if (contacts[k].bilateral && swept.contact_force[k].dot(contacts[k].normal) < 0) contacts[k].normal *= -1;
+  return contacts;
+}
+
 }  // namespace
 
-AdmissibleContact admissible_forces(const std::vector<Contact>& contacts, const std::vector<FrictionMoment>& moments,
-                                    const Positions& other_force, const std::vector<double>& mass,
-                                    const std::vector<char>& held) {
+AdmissibleContact admissible_forces(const std::vector<Contact>& of_both_sides,
+                                    const std::vector<FrictionMoment>& moments, const Positions& other_force,
+                                    const std::vector<double>& mass, const std::vector<char>& held) {
   std::vector<int> block_of_contact;
+  const std::vector<Contact> contacts = one_sided(of_both_sides, other_force, mass, held);
   const Problem problem = reduced(contacts, moments, other_force, mass, held, block_of_contact);
   BarrierMethod method(problem);
   method.solve();

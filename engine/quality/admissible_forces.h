@@ -19,8 +19,9 @@ struct FrictionMoment {
 /// the edges across it. So it is solved by a barrier method: Newton's steps on the objective plus
 /// τ (−Σ log(1 − |w|²) − Σ log(N² − |T|²/μ²)), whose linear systems are those of the vertices (Woodbury), with τ
 /// falling until the gap to the least objective, at most 2τ a cone and τ a ball, is under a hundredth of it (or of 1e-6
-/// a vertex). Nodes that are held, have no mass, or lie beyond the list of masses take any force. Deterministic;
-/// sequential.
+/// a vertex). On which side a bilateral contact carries is taken
+/// from admissible_contact(). Nodes that are held, have no mass, or lie beyond the list of masses take any force.
+/// Deterministic; sequential.
 AdmissibleContact admissible_forces(const std::vector<Contact>& contacts, const std::vector<FrictionMoment>& moments,
                                     const Positions& other_force, const std::vector<double>& mass,
                                     const std::vector<char>& held);

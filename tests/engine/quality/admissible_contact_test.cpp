@@ -46,6 +46,22 @@ TEST(AdmissibleContact, ContactsDoNotPull) {
   EXPECT_EQ(count_contacts(contacts, found.contact_force).pressing, 0);
 }
 
+TEST(AdmissibleContact, BilateralContactsPullAndRubUnderPull) {
+  Contact ceiling = slope_contact(0, 0, 0.3);
+  ceiling.normal = -Vec3::UnitY();
+  const Vec3 hanging(0.25 * kNodeWeight, -kNodeWeight, 0);  // and pulled aside within its friction
+  EXPECT_GT(admissible_contact({ceiling}, {hanging}, {kNodeMass}, {0}).net_force[0].norm(), kNodeWeight);
+  ceiling.bilateral = true;
+  const AdmissibleContact found = admissible_contact({ceiling}, {hanging}, {kNodeMass}, {0});
+  EXPECT_LT(found.net_force[0].norm(), 1e-12);
+  const std::vector<Contact> contacts{ceiling};
+  const ContactCount count = count_contacts(contacts, found.contact_force);
+  EXPECT_EQ(count.pressing, 1);
+  EXPECT_EQ(count.sticking, 1);
+  const Vec3 dragged(0.5 * kNodeWeight, -kNodeWeight, 0);
+  EXPECT_GT(admissible_contact({ceiling}, {dragged}, {kNodeMass}, {0}).net_force[0].norm(), 0.1 * kNodeWeight);
+}
+
 /// A layer on a layer on a floor: the lower contact bears both weights.
 TEST(AdmissibleContact, LayersPassTheirWeightOn) {
   Contact between = slope_contact(0, 0, 0.3);

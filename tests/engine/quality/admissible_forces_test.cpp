@@ -96,6 +96,16 @@ TEST(AdmissibleForces, LeavesNoMoreThanAnyChoiceOfContactForces) {
   EXPECT_NEAR(best, swept, 5e-3 * swept);
 }
 
+TEST(AdmissibleForces, ABilateralContactPulls) {
+  Contact ceiling = slope_contact(0, 0, 0.3);
+  ceiling.normal = -Vec3::UnitY();
+  ceiling.bilateral = true;
+  const AdmissibleContact found =
+      admissible_forces({ceiling}, {lift(0, 0.1 * kNodeWeight)}, {Vec3(0, -kNodeWeight, 0)}, {kNodeMass}, {0});
+  EXPECT_LT(found.net_force[0].norm(), 5e-3 * kNodeWeight);
+  EXPECT_GT(found.contact_force[0].y(), 0.8 * kNodeWeight);
+}
+
 TEST(AdmissibleForces, HeldNodesTakeAnyForceAndThoseBeyondTheMassesToo) {
   const AdmissibleContact found =
       admissible_forces({}, {lift(1, kNodeWeight), lift(7, kNodeWeight)}, {Vec3(0, -kNodeWeight, 0), Vec3(1, 0, 0)},
