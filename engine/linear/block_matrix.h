@@ -32,7 +32,6 @@ class BlockMatrix {
   BlockMatrix(int rows, std::span<const Stencils> stencils);
 
   int rows() const { return rows_; }
-  int off_diagonal_blocks() const { return static_cast<int>(columns_.size()); }
   /// Slot of a block of the topology. Throws std::out_of_range for another.
   int slot(int row, int column) const;
 

@@ -73,7 +73,7 @@ void check_solver(const SolverOptions& solver, std::vector<Problem>& problems) {
   require(positive(solver.newton_tolerance), "newton_tolerance_kg_m_s", "The tolerance must be positive.");
   require(positive(solver.cg_tolerance), "cg_tolerance", "The tolerance must be positive.");
   require(solver.newton_iterations > 0, "newton_iterations", "At least one iteration is needed.");
-  require(solver.line_search_iterations >= 0, "line_search_iterations", "A count is not negative.");
+  require(solver.line_search_iterations >= 1, "line_search_iterations", "A step needs a length to try.");
   require(solver.cg_iterations > 0, "cg_iterations", "At least one iteration is needed.");
   require(positive(solver.splitting_factor) && solver.splitting_factor < 1, "splitting_factor",
           "The factor must lie between 0 and 1.");

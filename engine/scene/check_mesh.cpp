@@ -23,7 +23,7 @@ void check_garment_mesh(const GarmentMesh& shape, const std::string& pointer, st
   if (!std::isfinite(shape.uv_unit) || shape.uv_unit <= 0)
     report("not_finite", "The unit of the UVs must be positive.");
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (mesh.vertices[v].allFinite()) continue;
+    if (is_place(mesh.vertices[v])) continue;
     return report("not_finite", "Vertex " + std::to_string(v) + " is not a place.");
   }
   const int count = static_cast<int>(mesh.vertices.size());

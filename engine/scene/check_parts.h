@@ -9,6 +9,10 @@
 
 namespace toile {
 
+inline constexpr double kFar = 1e4;  ///< [m]; what is farther is an accident
+
+inline bool is_place(const Vec3& v) { return v.allFinite() && v.cwiseAbs().maxCoeff() <= kFar; }
+
 /// Appends the problems of a pattern's panels and stitches; returns an estimate of the vertices it will have.
 double check_pattern(const Pattern& pattern, double edge_length, std::size_t garment, std::vector<Problem>& problems);
 

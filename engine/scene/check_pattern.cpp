@@ -12,6 +12,7 @@ namespace toile {
 namespace {
 
 constexpr double kShortestEdge = 1e-6;  // [m]
+constexpr double kCellsAVertex = 10;    // of a meshing lattice, that cost as much as a vertex
 constexpr double kLargestLength = 1e4;  // [m]; beyond, a number is an accident
 constexpr int kCurveSamples = 32;       // segments a curved edge is looked at with
 
@@ -91,7 +92,11 @@ double check_outline(const Panel& panel, double h, std::size_t garment, std::vec
                         a == b ? "The edge crosses or touches itself."
                                : "The edge crosses or touches edge " + std::to_string(b) + " of its panel."});
   }
-  return area / (h * h * std::sqrt(3.0) / 2) + perimeter / h;
+  // Meshing also looks at the cells of the panel's bounding box: a long strip that lies askew has many.
+  Vec2 low = outline[0], high = outline[0];
+  for (const Vec2& p : outline) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const double cells = (high - low).prod() / (h * h);
+  return std::max(area / (h * h * std::sqrt(3.0) / 2) + perimeter / h, cells / kCellsAVertex);
 }
 
 void check_stitches(const Pattern& pattern, std::size_t garment, std::vector<Problem>& problems) {

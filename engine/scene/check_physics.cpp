@@ -12,10 +12,6 @@ namespace {
 /// An unsigned quantity and the range outside which it is an accident of units.
 bool within(double value, double low, double high) { return std::isfinite(value) && value >= low && value <= high; }
 
-constexpr double kFar = 1e4;  // [m]
-
-bool place(const Vec3& v) { return v.allFinite() && v.cwiseAbs().maxCoeff() <= kFar; }
-
 struct BodyCheck {
   std::vector<Problem>& problems;
 
@@ -25,25 +21,25 @@ struct BodyCheck {
   static bool length(double value) { return within(value, 1e-6, kFar); }
 
   void operator()(const SphereBody& b) const {
-    require(place(b.center) && length(b.radius), "sphere", "A sphere needs a finite centre and a positive radius.");
+    require(is_place(b.center) && length(b.radius), "sphere", "A sphere needs a finite centre and a positive radius.");
   }
   void operator()(const CapsuleBody& b) const {
-    require(place(b.start) && place(b.end) && length(b.radius), "capsule",
+    require(is_place(b.start) && is_place(b.end) && length(b.radius), "capsule",
             "A capsule needs finite ends and a positive radius.");
   }
   void operator()(const CylinderBody& b) const {
-    require(place(b.start) && place(b.end) && length(b.radius) && length((b.end - b.start).norm()), "cylinder",
+    require(is_place(b.start) && is_place(b.end) && length(b.radius) && length((b.end - b.start).norm()), "cylinder",
             "A cylinder needs two different ends and a positive radius.");
   }
   void operator()(const BoxBody& b) const {
-    require(place(b.center) && place(b.half_extents) && length(b.half_extents.minCoeff()), "box",
+    require(is_place(b.center) && is_place(b.half_extents) && length(b.half_extents.minCoeff()), "box",
             "A box needs a finite centre and positive sizes.");
     require(
         b.rotation.allFinite() && (b.rotation.transpose() * b.rotation - Mat3::Identity()).cwiseAbs().maxCoeff() < 1e-6,
         "box", "The rotation is not a rotation.");
   }
   void operator()(const PlaneBody& b) const {
-    require(place(b.point) && std::abs(b.normal.norm() - 1) < 1e-6, "plane",
+    require(is_place(b.point) && std::abs(b.normal.norm() - 1) < 1e-6, "plane",
             "A plane needs a finite point and a normal of length one.");
   }
   void operator()(const DressFormBody& b) const {
@@ -67,7 +63,7 @@ struct BodyCheck {
     }
     Vec3 low = mesh.vertices.front(), high = low;
     for (const Vec3& vertex : mesh.vertices) {
-      if (!place(vertex)) {
+      if (!is_place(vertex)) {
         problems.push_back({"/body/mesh", "not_finite", "A vertex of the body is not a place."});
         return;
       }

@@ -251,8 +251,8 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
     Stopwatch watch(times.line_search);
     double f_ls = 1;
     bool diverged = true;
-    const int halvings = (i_n == 0 ? 1 : kCorrectionHalvings) * s.options.line_search_iterations;
-    for (int i_ls = 0; i_ls < halvings; ++i_ls) {
+    const int trials = (i_n == 0 ? 1 : kCorrectionHalvings) * s.options.line_search_iterations;
+    for (int i_ls = 0; i_ls < trials; ++i_ls) {
       parallel_for_each(nodes, kNodesPerTask, [&](int i) {
         const Float4& d = s.delta_v[i];
         v_trial[i] = v[i] + f_ls * Vec3(d.x, d.y, d.z);
@@ -268,7 +268,6 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
         break;
       }
       f_ls *= 0.5;
-      ++outcome.line_search_halvings;
     }
     outcome.residual = r_n;
     // Accepted once, further iterations can only lower the residual.

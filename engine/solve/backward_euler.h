@@ -29,7 +29,7 @@ struct Kinematic {
 struct StepOutcome {
   bool accepted = false;
   double residual = 0;  ///< ‖b‖ at the end [kg·m/s], over free vertices
-  int newton_iterations = 0, cg_iterations = 0, line_search_halvings = 0;
+  int newton_iterations = 0, cg_iterations = 0;
 };
 
 /// Wall time spent, added up over steps [s].

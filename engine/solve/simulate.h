@@ -42,12 +42,12 @@ struct Simulation {
   double kinetic_energy = 0;       ///< [J] at the end
   std::vector<Contact> contacts;   ///< at the end, friction included; those of the cloth with itself first, …
   std::size_t cloth_contacts = 0;  ///< … so many of them
-  std::vector<double> contact_distance;  ///< per vertex, where cloth repels cloth [m]
-  std::vector<TermEnergy> energies;      ///< of what is not contact, at the end
-  Positions net_force;                   ///< on free vertices, contacts and friction included [N]; zero on held ones
-  std::vector<double> mass;              ///< lumped [kg]
-  std::vector<RigidState> trims;         ///< at the end
-  std::vector<double> contact_force;     ///< per vertex, sum of contact force magnitudes [N]
+  std::vector<double> contact_distance;         ///< per vertex, where cloth repels cloth [m]
+  std::vector<TermEnergy> energies;             ///< of what is not contact, at the end
+  Positions net_force;                          ///< contacts and friction included; on held ones, what holds bears [N]
+  std::vector<double> mass;                     ///< lumped [kg]
+  std::vector<RigidState> trims;                ///< at the end
+  std::vector<double> contact_force;            ///< per vertex, sum of contact force magnitudes [N]
   std::vector<TrimContact> trim_contacts = {};  ///< at the end, friction included
 };
 

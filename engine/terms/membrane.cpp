@@ -322,9 +322,4 @@ void membrane_response(const MembraneStencil& s, const StencilPoints<3>& x, cons
   out.block[upper_block<3>(2, 2)] = (-b02.transpose() - b12.transpose()).cast<float>();
 }
 
-Vec2 membrane_stretch(const MembraneStencil& s, const StencilPoints<3>& x) {
-  const Mat32 f = edge_map(s, x);
-  return {f.col(0).norm(), f.col(1).norm()};
-}
-
 }  // namespace toile

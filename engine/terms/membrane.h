@@ -67,7 +67,4 @@ std::array<Vec3, 3> membrane_force(const MembraneStencil& s, const StencilPoints
 void membrane_response(const MembraneStencil& s, const StencilPoints<3>& x, const StencilPoints<3>& v,
                        const SystemWeights& weights, StencilResponse<3>& out);
 
-/// Stretch ratios along weft and warp, |F_u| and |F_v|.
-Vec2 membrane_stretch(const MembraneStencil& s, const StencilPoints<3>& x);
-
 }  // namespace toile

@@ -129,6 +129,7 @@ TEST(CheckScene, NamesWhatIsWrongWithAMesh) {
   const std::vector<Case> cases = {
       {"empty_garment", [](Scene& s) { mesh(s) = {}; }},
       {"not_finite", [](Scene& s) { mesh(s).mesh.vertices[1].z() = kNan; }},
+      {"not_finite", [](Scene& s) { mesh(s).mesh.vertices[1].z() = 1e200; }},
       {"not_finite", [](Scene& s) { mesh(s).uv_unit = 0; }},
       {"vertex_out_of_range", [](Scene& s) { mesh(s).mesh.triangles[0][1] = 4; }},
       {"vertex_out_of_range",
@@ -247,6 +248,7 @@ TEST(CheckScene, NamesWhatIsWrongWithFabricsBodiesPinsAndSolver) {
          pin(s) = {PinLabel{"lower_interface"}, PinAttached{true, -1}};
        }},
       {"solver_value /solver/max_time_step_s", [](Scene& s) { s.solver.max_time_step = kNan; }},
+      {"solver_value /solver/line_search_iterations", [](Scene& s) { s.solver.line_search_iterations = 0; }},
       {"solver_value /solver/splitting_factor", [](Scene& s) { s.solver.splitting_factor = 1; }},
   };
   for (const Case& c : cases) {
