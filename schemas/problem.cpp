@@ -55,12 +55,11 @@ const char* phrase(int status) {
   }
 }
 
-/// File names and keys may hold any bytes; what is not UTF-8 becomes U+FFFD.
+}  // namespace
+
 std::string utf8(const std::string& text) {
   return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
 }
-
-}  // namespace
 
 json problem_document(const InputError& error) {
   json errors = json::array();

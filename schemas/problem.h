@@ -12,6 +12,9 @@ namespace toile {
 /// json_too_large), 422 otherwise. Text that is not UTF-8 is repaired, so that dump() can't throw.
 nlohmann::json problem_document(const InputError& error);
 
+/// File names, keys and groups' names may hold any bytes; what is not UTF-8 becomes U+FFFD.
+std::string utf8(const std::string& text);
+
 /// A problem that its status says: type about:blank, title the status's phrase.
 nlohmann::json problem_document(int status, const std::string& detail);
 

@@ -1,5 +1,7 @@
 #include "schemas/write_report.h"
 
+#include "schemas/problem.h"
+
 #include "schemas/write_experiment.h"
 
 #include <cmath>
@@ -54,6 +56,8 @@ void require_finite(const json& document) {
 }  // namespace
 
 json write_report(const Report& report) {
+  json warnings = json::array();
+  for (const std::string& warning : report.warnings) warnings.push_back(utf8(warning));
   json document = {{"status", report.status},
                    {"stop_reason", report.stop_reason},
                    {"vertices", report.vertices},
@@ -81,7 +85,7 @@ json write_report(const Report& report) {
                    {"seam_gap_mm", {{"max", 1e3 * report.seam_gap_max}}},
                    {"kinetic_energy_j", report.kinetic_energy},
                    {"result_sha256", report.result_sha256},
-                   {"warnings", report.warnings},
+                   {"warnings", warnings},
                    {"version", TOILE_VERSION}};
   if (report.experiment) document["experiment"] = write_experiment(*report.experiment);
   require_finite(document);

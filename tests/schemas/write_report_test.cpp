@@ -44,6 +44,12 @@ TEST(WriteReport, MatchesItsSchema) {
   EXPECT_NO_THROW(validate_document("report.schema.json", write_report(empty)));
 }
 
+TEST(WriteReport, NamesInWarningsMayHoldAnyBytes) {
+  Report report = full_report();
+  report.warnings = {"panel 'K\xF6rper' bends soft"};
+  EXPECT_NE(write_report(report).dump().find("K\xEF\xBF\xBDrper"), std::string::npos);
+}
+
 TEST(WriteReport, HasTheUnitsOfItsKeys) {
   const json document = write_report(full_report());
   EXPECT_DOUBLE_EQ(document["stretch_percent"]["warp"]["p99"], 2.0);
