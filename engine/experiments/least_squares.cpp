@@ -13,21 +13,23 @@ constexpr double kSmallestStep = 1e-6;  // of the trust region over the paramete
 constexpr double kFirstStep = 1;        // radius of the trust region at first
 constexpr int kMostIterations = 30;
 constexpr double kNothing = 1e-6;  // a singular value that is none, beside round-off
-constexpr double kFailed = 1e4;    // residual of what can't be evaluated [uncertainties]
+constexpr double kFailed = 1e4;    // residual of what can't be evaluated [uncertainties], above all at the start
 constexpr double kOutside = 100;  // slope of the residual of a parameter out of bounds [uncertainties over a step of 1]
 
 /// The problem with the residuals that steer the method, in the form that Eigen asks for. Parameters count from the
 /// start.
 class Functor {
  public:
-  explicit Functor(const LeastSquaresProblem& problem) : problem_(problem) {}
+  /// `start`: residuals there. What can't be evaluated is worse, so that the method never ends in it.
+  Functor(const LeastSquaresProblem& problem, const Numbers& start)
+      : problem_(problem), failed_(kFailed + 2 * start.norm()) {}
 
   int inputs() const { return static_cast<int>(problem_.start.size()); }
   int values() const { return problem_.residuals + inputs() + 1; }
 
   int operator()(const Numbers& x, Numbers& residual) const {
     const std::optional<Numbers> found = problem_.evaluate({inside(x)}).front();
-    residual.setConstant(values(), kFailed);
+    residual.setConstant(values(), failed_);
     if (found) fill(x, *found, residual);
     return 0;
   }
@@ -60,6 +62,7 @@ class Functor {
   }
 
   const LeastSquaresProblem& problem_;
+  double failed_;
 };
 
 }  // namespace
@@ -67,11 +70,12 @@ class Functor {
 LeastSquaresSolution least_squares(const LeastSquaresProblem& problem) {
   LeastSquaresSolution solution;
   solution.parameters = problem.start;
-  if (!problem.evaluate({problem.start}).front()) {
+  const std::optional<Numbers> at_start = problem.evaluate({problem.start}).front();
+  if (!at_start) {
     solution.stop_reason = "start_failed";
     return solution;
   }
-  Functor functor(problem);
+  Functor functor(problem, *at_start);
   Eigen::LevenbergMarquardt<Functor> method(functor);
   method.parameters.ftol = kImprovement;
   method.parameters.xtol = kSmallestStep;
