@@ -76,14 +76,14 @@ Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& o
   Cloth at_start = apart;
   const std::vector<int> old_to_new = merge_seams(at_start);
   std::optional<BodyField> body;
-  if (scene.body) body = make_body_field(*scene.body, smallest_edge_length(scene));
+  if (scene.body) body = make_body_field(*scene.body, smallest_edge_length(apart));
 
   Report report;
   report.warnings = matched.cloth.warnings;
   if (body)
     for (const std::string& warning : body->warnings()) report.warnings.push_back(warning);
   report.seam_gap_max = matched.seam_gap_max;
-  const std::vector<SlidingVertex> sliding = sliding_vertices(scene, apart, at_start, old_to_new);
+  const std::vector<SlidingVertex> sliding = sliding_vertices(scene, at_start);
   const SimulationScene still{scene.solver,
                               body ? &*body : nullptr,
                               scene.body ? scene.body->friction.value_or(-1) : 0.0,

@@ -67,7 +67,7 @@ struct Bodies {
 Bodies make_bodies(const Scene& scene, const Cloth& cloth) {
   Bodies bodies;
   if (!scene.body) return bodies;
-  bodies.whole = make_body_field(*scene.body, smallest_edge_length(scene));
+  bodies.whole = make_body_field(*scene.body, smallest_edge_length(cloth));
   if (!cloth.seam_pairs.empty()) bodies.without_overhangs = bodies.whole->without_overhangs();
   return bodies;
 }
@@ -174,7 +174,6 @@ Drape drape(const Scene& scene, Monitor& monitor) {
 
   stage("assemble", 0.02);
   const std::vector<std::string> found = apart.warnings;
-  const Cloth before = slides_on_body(scene) ? apart : Cloth{};
   Assembly assembly;
   try {
     assembly = assemble(scene, std::move(apart), bodies.fields(), [&](const AssemblyState& state) {
@@ -223,8 +222,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
     if (has_trims(scene))
       report.warnings.push_back("preview: elastics, drawcords and tapes do not pull, trims are left out");
   } else {
-    std::vector<SlidingVertex> sliding;
-    if (!before.x.empty()) sliding = sliding_vertices(scene, before, result.cloth, assembly.old_to_new);
+    const std::vector<SlidingVertex> sliding = sliding_vertices(scene, result.cloth);
     SimulationScene simulated{options_of(scene),
                               bodies.fields().whole,
                               scene.body ? scene.body->friction.value_or(-1) : 0.0,

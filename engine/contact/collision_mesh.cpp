@@ -40,6 +40,14 @@ double default_body_offset(double thickness, double edge_length) {
   return std::max(0.5 * thickness, std::min(0.1 * edge_length, 1.5e-3));
 }
 
+double largest_body_offset(const Cloth& cloth, double given) {
+  if (given > 0) return given;
+  double offset = 0;
+  for (const ClothPanel& panel : cloth.panels)
+    offset = std::max(offset, default_body_offset(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
+  return offset;
+}
+
 double CollisionMesh::pair_distance(std::span<const int> a, std::span<const int> b) const {
   double limit = distance_limit[a[0]], wanted_a = wanted_distance[a[0]], wanted_b = wanted_distance[b[0]];
   for (int v : a) limit = std::min(limit, distance_limit[v]), wanted_a = std::min(wanted_a, wanted_distance[v]);

@@ -40,6 +40,8 @@ struct CollisionMesh {
 /// where that is more, so that a coarse chord does not cut into the skin. It makes a tight band longer by 2π times
 /// itself.
 double default_body_offset(double thickness, double edge_length);
+/// The largest of its panels' default offsets, where none (0) is given [m].
+double largest_body_offset(const Cloth& cloth, double given);
 
 /// Contact distance of a fabric of `thickness` on a mesh of `edge_length` [m]: no thinner than the fabric, and wide
 /// enough (0.18 edges, at most 3 mm) that a layer meets several features of the other at once.

@@ -53,10 +53,12 @@ double grain_of(const Garment& garment, const std::string& panel_name) {
   return chosen != garment.panel_grain.end() ? chosen->second : garment.grain;
 }
 
+Vec2 turned_to_grain(double grain, const Vec2& drawn) {
+  return grain == 0 ? drawn : Vec2(Eigen::Rotation2Dd(-grain) * drawn);
+}
+
 void turn_to_grain(double grain, std::array<Vec2, 3>& flat) {
-  if (grain == 0) return;
-  const Eigen::Rotation2Dd turn(-grain);
-  for (Vec2& corner : flat) corner = turn * corner;
+  for (Vec2& corner : flat) corner = turned_to_grain(grain, corner);
 }
 
 Cloth build_cloth(const Scene& scene) {
@@ -74,7 +76,15 @@ Cloth build_cloth(const Scene& scene) {
     add_creases(garment, index, static_cast<int>(first_vertex), static_cast<int>(first_triangle), cloth);
     warn_of_size(garment, g, first_vertex, cloth);
   }
+  for (std::size_t v = 0; v < cloth.x.size(); ++v) cloth.placed.push_back({static_cast<int>(v), cloth.x[v]});
   return cloth;
+}
+
+double smallest_edge_length(const Cloth& cloth) {
+  double length = 0.1;
+  for (const ClothPanel& panel : cloth.panels)
+    if (panel.edge_length > 0) length = std::min(length, panel.edge_length);
+  return length;
 }
 
 TriangleMesh surface_mesh(const Cloth& cloth) {

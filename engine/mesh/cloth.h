@@ -36,6 +36,12 @@ struct ClampedEdge {
   int triangle, corner, tip;
 };
 
+/// Where a vertex was placed by the scene. A sewn vertex has several.
+struct PlacedVertex {
+  int vertex;
+  Vec3 at;  ///< [m]
+};
+
 /// An edge of the mesh that is not flat at rest, or not as stiff as the cloth: a pressed fold, a seam. The rest angle
 /// is positive where the edge is a ridge seen from the right side of the triangle with the smaller index.
 struct Crease {
@@ -59,9 +65,13 @@ struct Cloth {
   std::vector<SeamPair> seam_pairs;
   std::vector<std::string> seam_names;  ///< "panelA/3 – panelB/5"
   std::vector<LabelledVertices> labels;
+  std::vector<PlacedVertex> placed;  ///< before assembly moved anything; empty: where they are
   std::vector<ClampedEdge> clamps;
   std::vector<Crease> creases;
   std::vector<std::string> warnings;  ///< said once each, for the report
 };
+
+/// The smallest edge length of its panels [m]; at most 0.1.
+double smallest_edge_length(const Cloth& cloth);
 
 }  // namespace toile

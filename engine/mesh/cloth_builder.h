@@ -23,7 +23,8 @@ int fabric_of(const Garment& garment, const std::string& panel_name, const Fabri
 /// Where a panel's warp runs [rad], counter-clockwise from +y of the drawing.
 double grain_of(const Garment& garment, const std::string& panel_name);
 
-/// Turns drawn corners so that the warp runs along +v. A grain of 0 leaves every bit as it is.
+/// Turns what is drawn so that the warp runs along +v. A grain of 0 leaves every bit as it is.
+Vec2 turned_to_grain(double grain, const Vec2& drawn);
 void turn_to_grain(double grain, std::array<Vec2, 3>& flat);
 
 }  // namespace toile

@@ -135,6 +135,8 @@ std::vector<int> merge_closed_seams(Cloth& cloth, double gap) {
   }
   const std::vector<int> kept = drop_flattened(cloth);
   for (int& vertex : renumbered) vertex = kept[static_cast<std::size_t>(vertex)];
+  for (PlacedVertex& placed : cloth.placed) placed.vertex = renumbered[static_cast<std::size_t>(placed.vertex)];
+  std::erase_if(cloth.placed, [](const PlacedVertex& placed) { return placed.vertex < 0; });
   for (LabelledVertices& label : cloth.labels) {
     for (int& vertex : label.vertices) vertex = renumbered[static_cast<std::size_t>(vertex)];
     std::erase(label.vertices, -1);

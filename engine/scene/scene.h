@@ -75,11 +75,4 @@ inline std::vector<char> given_as_mesh(const Scene& scene) {
   return given;
 }
 
-/// Of its garments [m]; at most 0.1.
-inline double smallest_edge_length(const Scene& scene) {
-  double length = 0.1;
-  for (const Garment& garment : scene.garments) length = std::min(length, garment.edge_length);
-  return length;
-}
-
 }  // namespace toile

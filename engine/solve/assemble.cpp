@@ -22,14 +22,6 @@ constexpr int kFallingSteps = 400;     // a skirt sewn through raised arms falls
 constexpr double kSlitGap = 2e-4;      // [m]
 constexpr double kPressedGap = 1e-9;   // [m] folding has closed what is nearer
 
-double body_offset(const Cloth& cloth, const SolverOptions& solver) {
-  if (solver.body_offset > 0) return solver.body_offset;
-  double offset = 0;
-  for (const ClothPanel& panel : cloth.panels)
-    offset = std::max(offset, default_body_offset(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
-  return offset;
-}
-
 /// Lets what was sewn through the arms fall below them, then minds the whole body.
 void fall_clear(AssemblyStage& stage, Cloth& cloth, const std::vector<const BodyField*>& field_apart,
                 const std::vector<int>& old_to_new, const BodyFields& fields, const std::vector<char>& keep,
@@ -97,7 +89,7 @@ Assembly assemble(const Scene& scene, Cloth apart, const BodyFields& fields, con
     pressed = merge_closed_seams(apart, kPressedGap);
   }
   const std::vector<const BodyField*> field = field_of_vertices(apart, fields);
-  const double offset = body_offset(apart, scene.solver);
+  const double offset = largest_body_offset(apart, scene.solver.body_offset);
   std::vector<char> keep(apart.x.size(), 0), held(apart.x.size(), 0);
   for (std::size_t g = 0; g < scene.garments.size(); ++g)
     for (const Pin& pin : scene.garments[g].pins) {

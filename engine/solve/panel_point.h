@@ -13,7 +13,8 @@ struct PanelPoint {
   std::array<double, 3> weights;  ///< barycentric
 };
 
-/// The triangle of the panel that holds a flat point, the one that holds it best where edges round; nothing off it.
+/// The triangle of the panel that holds a flat point (as Cloth::flat: turned by the grain), the one that holds it best
+/// where edges round; nothing off it.
 std::optional<PanelPoint> find_on_panel(const Cloth& cloth, int panel, const Vec2& at);
 
 Vec3 position(const Cloth& cloth, const PanelPoint& p);

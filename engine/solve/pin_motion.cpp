@@ -1,5 +1,6 @@
 #include "engine/solve/pin_motion.h"
 
+#include "engine/contact/friction_table.h"
 #include "engine/scene/problem.h"
 
 #include <algorithm>
@@ -8,6 +9,19 @@
 #include <set>
 
 namespace toile {
+namespace {
+
+/// visit(vertex, where the scene placed it).
+template <class Visit>
+void for_each_placed(int garment, const Cloth& cloth, const Visit& visit) {
+  for (const PlacedVertex& placed : cloth.placed)
+    if (cloth.vertex_garment[placed.vertex] == garment) visit(placed.vertex, placed.at);
+  if (!cloth.placed.empty()) return;
+  for (std::size_t v = 0; v < cloth.x.size(); ++v)
+    if (cloth.vertex_garment[v] == garment) visit(static_cast<int>(v), cloth.x[v]);
+}
+
+}  // namespace
 
 std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth) {
   std::vector<int> chosen;
@@ -31,17 +45,16 @@ std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth
   } else if (const auto* label = std::get_if<PinLabel>(&pin.select)) {
     by_label(label->label);
   } else if (const auto* box = std::get_if<PinBox>(&pin.select)) {
-    for (std::size_t v = 0; v < cloth.x.size(); ++v)
-      if (cloth.vertex_garment[v] == garment && (cloth.x[v].array() >= box->min.array()).all() &&
-          (cloth.x[v].array() <= box->max.array()).all())
-        chosen.push_back(static_cast<int>(v));
+    for_each_placed(garment, cloth, [&](int v, const Vec3& at) {
+      if ((at.array() >= box->min.array()).all() && (at.array() <= box->max.array()).all()) chosen.push_back(v);
+    });
   } else if (const auto* nearest = std::get_if<PinNearest>(&pin.select)) {
     double best = std::numeric_limits<double>::infinity();
     int found = -1;
-    for (std::size_t v = 0; v < cloth.x.size(); ++v) {
-      const double d = (cloth.x[v] - nearest->point).squaredNorm();
-      if (cloth.vertex_garment[v] == garment && d < best) best = d, found = static_cast<int>(v);
-    }
+    for_each_placed(garment, cloth, [&](int v, const Vec3& at) {
+      const double d = (at - nearest->point).squaredNorm();
+      if (d < best) best = d, found = v;
+    });
     if (found >= 0) chosen.push_back(found);
   }
   std::sort(chosen.begin(), chosen.end());
@@ -49,25 +62,20 @@ std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth
   return chosen;
 }
 
-std::vector<SlidingVertex> sliding_vertices(const Scene& scene, const Cloth& apart, const Cloth& sewn,
-                                            const std::vector<int>& old_to_new) {
-  std::vector<double> cloth_friction(sewn.x.size(), 0);
-  for (std::size_t t = 0; t < sewn.triangles.size(); ++t)
-    for (int v : sewn.triangles[t])
-      cloth_friction[v] =
-          std::max(cloth_friction[v], sewn.fabrics[sewn.panels[sewn.triangle_panel[t]].fabric].friction_body);
+std::vector<SlidingVertex> sliding_vertices(const Scene& scene, const Cloth& cloth) {
+  if (!scene.body) return {};
+  const FrictionTable table = friction_table(cloth.fabrics, scene.body->friction.value_or(-1), scene.friction_pairs);
+  std::vector<double> on_body(cloth.x.size(), 0);
+  for (std::size_t t = 0; t < cloth.triangles.size(); ++t)
+    for (int v : cloth.triangles[t])
+      on_body[v] = std::max(on_body[v], table.body[cloth.panels[cloth.triangle_panel[t]].fabric]);
   std::map<int, double> friction;
   for (std::size_t g = 0; g < scene.garments.size(); ++g)
     for (const Pin& pin : scene.garments[g].pins) {
       const auto* attached = std::get_if<PinAttached>(&pin.hold);
-      if (!attached || !attached->slides || !scene.body) continue;
-      const bool named = std::holds_alternative<PinVertices>(pin.select);
-      for (int v : pinned_vertices(pin, static_cast<int>(g), named ? sewn : apart)) {
-        const int vertex = named ? v : old_to_new[v];
-        if (vertex < 0) continue;
-        const double of_body = scene.body->friction.value_or(cloth_friction[vertex]);
-        friction.try_emplace(vertex, attached->friction.value_or(of_body));
-      }
+      if (!attached || !attached->slides) continue;
+      for (int v : pinned_vertices(pin, static_cast<int>(g), cloth))
+        friction.try_emplace(v, attached->friction.value_or(on_body[v]));
     }
   std::vector<SlidingVertex> sliding;
   for (const auto& [vertex, coefficient] : friction) sliding.push_back({vertex, coefficient});

@@ -9,15 +9,14 @@
 
 namespace toile {
 
-/// Vertices of garment `g` that a pin selects, in the numbering of `cloth` (apart or sewn). Empty: selects nothing.
-/// Throws InputError (`vertex_out_of_range`) for a vertex that the garment does not have.
+/// Vertices of garment `g` that a pin selects, in the numbering of `cloth` (apart or sewn). Boxes and nearest points
+/// are asked of where vertices were placed (Cloth::placed), so that the answer does not change as assembly moves them.
+/// Empty: selects nothing. Throws InputError (`vertex_out_of_range`) for a vertex that the garment does not have.
 std::vector<int> pinned_vertices(const Pin& pin, int garment, const Cloth& cloth);
 
-/// Vertices that pins attach to the body so that they slide, each once (the first pin counts). Pins are asked of the
-/// cloth before it is sewn, as assembly asks them, and vertices renumbered by old_to_new; those that name vertices, of
-/// the sewn one.
-std::vector<SlidingVertex> sliding_vertices(const Scene& scene, const Cloth& apart, const Cloth& sewn,
-                                            const std::vector<int>& old_to_new);
+/// Vertices of the sewn cloth that pins attach to the body so that they slide, each once (the first pin counts), with
+/// the pin's friction, else that of the vertex's fabric on the body (contact/friction_table.h).
+std::vector<SlidingVertex> sliding_vertices(const Scene& scene, const Cloth& cloth);
 
 /// One held vertex: where it started and the motion it follows (none: it stays).
 struct HeldVertex {

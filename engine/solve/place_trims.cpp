@@ -1,5 +1,6 @@
 #include "engine/solve/place_trims.h"
 
+#include "engine/mesh/cloth_builder.h"
 #include "engine/mesh/pattern_pointer.h"
 #include "engine/scene/problem.h"
 #include "engine/solve/panel_point.h"
@@ -37,7 +38,7 @@ int panel_index(const Cloth& cloth, std::size_t garment, const std::string& name
 
 struct Hole {
   int panel;
-  Vec2 at;
+  Vec2 at;  // as Cloth::flat
   PanelPoint point;
   std::string pointer;
 };
@@ -96,7 +97,8 @@ void place_trims(const Scene& scene, const Cloth& sewn, Trimmings& trimmings) {
       for (std::size_t h = 0; h < trim.holes.size(); ++h) {
         const std::string pointer = garment_pointer(g) + "/trims/" + std::to_string(k) + "/attach/" + std::to_string(h);
         const int panel = panel_index(sewn, g, trim.holes[h].panel);
-        holes.push_back({panel, trim.holes[h].at, point_or_problem(sewn, panel, trim.holes[h].at, pointer), pointer});
+        const Vec2 at = turned_to_grain(grain_of(scene.garments[g], trim.holes[h].panel), trim.holes[h].at);
+        holes.push_back({panel, at, point_or_problem(sewn, panel, at, pointer), pointer});
         spacing = std::max(spacing, layer_spacing(scene.solver, sewn, panel));
       }
       place_trim(trim, holes, spacing, sewn, trimmings);

@@ -188,6 +188,8 @@ void add_tape(const Zipper& zipper, const Run& run, std::size_t begin, std::size
 
 void place_zipper(const Zipper& zipper, const std::array<Run, 2>& runs, Ends& ends, const std::string& pointer,
                   Trimmings& trimmings) {
+  if (runs[0].vertices.size() != runs[1].vertices.size() || runs[0].vertices.size() < 2)
+    throw InputError(pointer, "zipper_side", "A seam joins vertices along one side of the zipper.");
   const std::size_t segments = runs[0].vertices.size() - 1;
   std::size_t closed = 0;
   while (closed < segments && runs[0].vertices[closed + 1] == runs[1].vertices[closed + 1]) ++closed;

@@ -20,9 +20,7 @@ PreviewOutcome settle_preview(const Scene& scene, Cloth& cloth, const BodyField*
   PositionBasedOptions options;
   options.fall = {0, -0.05e-3, 0};
   options.carry = 0.97;
-  for (const ClothPanel& panel : cloth.panels)
-    options.body_offset = std::max(scene.solver.body_offset,
-                                   default_body_offset(cloth.fabrics[panel.fabric].thickness, panel.edge_length));
+  options.body_offset = largest_body_offset(cloth, scene.solver.body_offset);
   for (const HeldVertex& h : held) {
     solver.mobility[h.vertex] = 0;
     cloth.x[h.vertex] = position_at(h, last_key_frame(held));

@@ -1,5 +1,6 @@
 #include "engine/solve/pin_motion.h"
 
+#include "engine/mesh/sewing.h"
 #include "engine/scene/problem.h"
 #include "engine/solve/assemble.h"
 #include "tests/engine/solve/scenes.h"
@@ -63,13 +64,40 @@ TEST(SlidingVertices, AreThoseOfTheirPinsRenumberedAndNotHeld) {
   const BodyField body = make_body_field(*scene.body, 0.03);
   const Assembly assembly = assemble(scene, apart, {&body, nullptr}, [](const AssemblyState&) { return true; });
   ASSERT_TRUE(assembly.open_seams.empty());
-  const auto found = sliding_vertices(scene, apart, assembly.cloth, assembly.old_to_new);
+  const auto found = sliding_vertices(scene, assembly.cloth);
   EXPECT_EQ(found.size(), pinned_vertices(garment.pins[0], 0, apart).size() + 1);
   for (const SlidingVertex& s : found) EXPECT_EQ(s.friction, scene.body->friction);
   EXPECT_TRUE(held_vertices(scene, assembly.cloth, assembly.attached, found).empty());
   EXPECT_FALSE(held_vertices(scene, assembly.cloth, assembly.attached).empty());
   std::get<PinAttached>(garment.pins[0].hold).friction = 0.7;
-  EXPECT_EQ(sliding_vertices(scene, apart, assembly.cloth, assembly.old_to_new).back().friction, 0.7);
+  EXPECT_EQ(sliding_vertices(scene, assembly.cloth).back().friction, 0.7);
+}
+
+TEST(SlidingVertices, RubAsTheirPairOfMaterialsDoes) {
+  Scene scene = tube_scene();
+  PinAttached sliding;
+  sliding.slides = true;
+  scene.garments[0].pins = {{PinEdge{0, 2}, sliding}};
+  scene.friction_pairs = {{scene.garments[0].fabric.name, "", 0.05}};
+  for (const SlidingVertex& s : sliding_vertices(scene, build_cloth(scene))) EXPECT_EQ(s.friction, 0.05);
+}
+
+/// Boxes and nearest points are asked of where the scene put the cloth, not of where sewing has brought it.
+TEST(PinnedVertices, AreTheSameBeforeAndAfterSewing) {
+  const Scene scene = tube_scene();
+  Cloth cloth = build_cloth(scene);
+  const Pin front{PinBox{Vec3(-1, 0.0499, 0), Vec3(1, 1, 1)}, PinFixed{}},
+      one{PinNearest{Vec3(0.01, 0.05, 0.2)}, PinFixed{}};
+  const std::vector<int> before = pinned_vertices(front, 0, cloth);
+  const int nearest = pinned_vertices(one, 0, cloth).at(0);
+  ASSERT_EQ(before.size(), 13u);  // the front's upper edge
+  const std::vector<int> old_to_new = merge_seams(cloth);
+  for (Vec3& x : cloth.x) x += Vec3(0.3, -2, -0.4);
+  std::vector<int> after;
+  for (const int v : before) after.push_back(old_to_new[v]);
+  std::sort(after.begin(), after.end());
+  EXPECT_EQ(pinned_vertices(front, 0, cloth), after);
+  EXPECT_EQ(pinned_vertices(one, 0, cloth), std::vector<int>{old_to_new[nearest]});
 }
 
 TEST(LastKeyFrame, IsTheLatestOfAll) {

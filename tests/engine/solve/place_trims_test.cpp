@@ -43,6 +43,14 @@ TEST(PlaceTrims, AButtonLiesOnTheRightSideOverItsFirstHole) {
   EXPECT_EQ(trimmings.trims[0].body.mass, scene.garments[0].trims[0].button.mass);
 }
 
+TEST(PlaceTrims, AHoleIsWhereItIsDrawnWhateverTheGrain) {
+  Scene scene = buttoned();
+  scene.garments[0].grain = 0.7;
+  const RigidState at = placed(scene).trims.at(0).start;
+  EXPECT_NEAR(at.center.x(), 0.011, 1e-12);
+  EXPECT_NEAR(at.center.y(), 0.052, 1e-12);
+}
+
 TEST(PlaceTrims, SpringsHoldEachLayerBelowTheSamePointOfTheButton) {
   const Scene scene = buttoned();
   const Cloth cloth = build_cloth(scene);

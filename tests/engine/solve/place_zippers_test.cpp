@@ -69,6 +69,24 @@ TEST(PlaceZippers, EndsLieOnTheRightSideWithTheirSpringsAtRest) {
   }
 }
 
+TEST(PlaceZippers, ASeamThatShortensOneSideIsRefused) {
+  const Scene pattern = zipped(0.5);
+  Cloth drawn = build_cloth(pattern);
+  const auto sides = zipper_sides(drawn, 0, 0);
+  GarmentMesh shape;
+  shape.mesh = surface_mesh(drawn);
+  shape.seams = {{sides[1][8], sides[1][9]}};
+  Scene scene = pattern;
+  scene.garments[0].shape = shape;
+  scene.garments[0].zippers[0].sides = {PinVertices{sides[0]}, PinVertices{sides[1]}};
+  try {
+    make_trimmings(scene, sewn(scene));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems()[0].code, "zipper_side");
+  }
+}
+
 TEST(PlaceZippers, AZipperShorterThanItsEndsIsRefused) {
   Scene scene = zipped(0.5);
   scene.garments[0].zippers[0].slider.size.y() = 0.11;
