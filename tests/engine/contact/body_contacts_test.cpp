@@ -103,6 +103,56 @@ TEST(BodyContacts, KeysAreUniqueAndTheSameFromStepToStep) {
   for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(after[i].key, before[i].key);
 }
 
+/// A trough whose sides rise at 45°, upwards open, along z.
+TriangleMesh trough() {
+  TriangleMesh mesh;
+  for (const double z : {-0.1, 0.1})
+    for (const Vec2& p : {Vec2(-0.05, 0.05), Vec2(-0.05, -0.05), Vec2(0.05, -0.05), Vec2(0.05, 0.05), Vec2(0, 0)})
+      mesh.vertices.emplace_back(p.x(), p.y(), z);
+  for (int k = 0; k < 5; ++k) {
+    const int next = (k + 1) % 5;
+    mesh.triangles.insert(mesh.triangles.end(), {{k, k + 5, next}, {next, k + 5, next + 5}});
+  }
+  mesh.triangles.insert(mesh.triangles.end(), {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {5, 9, 6}, {6, 9, 7}, {7, 9, 8}});
+  return mesh;
+}
+
+/// The nearest side alone would throw it to and fro, or not keep it from going aside.
+TEST(BodyContacts, InAFoldBothSidesAreInTheWay) {
+  const BodyField body = make_body_field({MeshBody{trough()}, 0.3}, 2e-3);
+  Sheet sheet(0.2);
+  ASSERT_GT(body.distance(Vec3(0, 0.01, 0)), 0);
+  for (const double aside : {2e-4, -1e-3}) {
+    sheet.cloth.x[0] = Vec3(aside, 1.5e-3, 0);
+    const std::vector<Contact> contacts = body_contacts(sheet.mesh, body, sheet.cloth.x, {3e-3, 0.3});
+    std::set<std::uint64_t> keys;
+    double left = 0, right = 0;
+    for (const Contact& c : contacts) {
+      keys.insert(c.key);
+      EXPECT_GT(c.normal.y(), 0.6);
+      EXPECT_LT(contact_gap(c, sheet.cloth.x), 2.2e-3);
+      left = std::min(left, c.normal.x());
+      right = std::max(right, c.normal.x());
+    }
+    EXPECT_EQ(keys.size(), contacts.size());
+    EXPECT_LT(left, -0.4) << aside;
+    EXPECT_GT(right, 0.4) << aside;
+  }
+  sheet.cloth.x[0] = Vec3(0.02, 0.021, 0);  // by one side alone
+  EXPECT_EQ(body_contacts(sheet.mesh, body, sheet.cloth.x, {3e-3, 0.3}).size(), 1u);
+}
+
+TEST(BodyContacts, AnOuterEdgeIsOneSide) {
+  const BodyField box = make_body_field({BoxBody{Vec3::Zero(), Vec3(0.1, 0.1, 0.1), Mat3::Identity()}, 0.3}, kEdge);
+  Sheet sheet(0.5);
+  for (const double over : {1e-3, -1e-3}) {
+    sheet.cloth.x[0] = Vec3(0.099, 0.1 + over, 0);
+    const std::vector<Contact> contacts = body_contacts(sheet.mesh, box, sheet.cloth.x, {3e-3, 0.3});
+    for (const Contact& c : contacts) EXPECT_GE(contact_gap(c, sheet.cloth.x), -1.1e-3);
+    EXPECT_LE(contacts.size(), 2u);
+  }
+}
+
 TEST(BodyContacts, ContactsDeepInsideStillPointOut) {
   const BodyField ball = make_body_field({SphereBody{Vec3::Zero(), 0.1}, 0.3}, kEdge);
   Cloth cloth;
