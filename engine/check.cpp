@@ -100,7 +100,8 @@ Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& o
   measure_geometry(matched.cloth, still.body, report);
   add_warnings(matched.cloth, contact_distance, report);
   const double at_rest = scene.solver.rest_residual > 0 ? scene.solver.rest_residual : kAtRest;
-  const bool converged = report.residual_rms < at_rest && report.seam_gap_max < kClosedSeam;
+  const bool converged =
+      report.residual_rms < at_rest && report.seam_gap_max < kClosedSeam && report.penetration_max <= kWrongSide;
   report.status = converged ? "converged" : "not_converged";
   report.stop_reason = "checked";
   return report;

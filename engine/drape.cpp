@@ -107,6 +107,24 @@ void check_size(Cloth& cloth, const BodyField& body) {
   }
 }
 
+/// Throws InputError `empty_garment` where sewing leaves no triangle of a garment: then its edges are too long for it.
+void check_something_is_left(const Cloth& apart) {
+  if (apart.seam_pairs.empty()) return;
+  Cloth sewn = apart;
+  merge_seams(sewn);
+  const auto has_triangles = [&](const Cloth& cloth, int g) {
+    return std::any_of(cloth.triangle_panel.begin(), cloth.triangle_panel.end(),
+                       [&](int panel) { return cloth.panels[panel].garment == g; });
+  };
+  const int garments = apart.vertex_garment.empty() ? 0 : 1 + apart.vertex_garment.back();
+  for (int g = 0; g < garments; ++g)
+    if (!has_triangles(sewn, g))
+      throw InputError(
+          "/garments/" + std::to_string(g), "empty_garment",
+          "Sewing leaves no triangle of the garment: are its edges too long for its panels, or their units "
+          "wrong?");
+}
+
 /// What was found odd about sizes explains best why panels can't be sewn.
 [[noreturn]] void rethrow_with_sizes(const InputError& error, const std::vector<std::string>& warnings) {
   std::vector<Problem> problems = error.problems();
@@ -168,6 +186,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
   stage("mesh", 0);
   Cloth apart = build_cloth(scene);
   warn_of_mesh_bending(apart, given_as_mesh(scene));
+  check_something_is_left(apart);
   stage("body", 0.01);
   const Bodies bodies = make_bodies(scene, apart);
   if (bodies.whole) check_size(apart, *bodies.whole);
@@ -244,6 +263,10 @@ Drape drape(const Scene& scene, Monitor& monitor) {
   stage("measure", kDraped);
   measure_geometry(result.cloth, bodies.fields().whole, report);
   add_warnings(result.cloth, contact_distance, report);
+  if (report.status == "converged" && report.penetration_max > kWrongSide) {
+    report.status = "not_converged";
+    report.stop_reason = "inside_body";
+  }
   const TriangleStretch stretch = triangle_stretch(result.cloth.flat, result.cloth.triangles, result.cloth.x);
   result.stretch_warp = stretch.warp;
   result.stretch_weft = stretch.weft;

@@ -4,8 +4,8 @@
 #include "schemas/pointer.h"
 
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace toile {
@@ -14,25 +14,73 @@ namespace {
 
 using nlohmann::json;
 
-/// An array or object that is being parsed.
-struct Level {
-  bool is_object;
-  std::size_t index = 0;       ///< of the array's element that is being parsed
-  std::string key;             ///< of the object's member that is being parsed
-  std::set<std::string> keys;  ///< seen so far
-};
+/// Looks through a document before it is built, since building can't be stopped where it goes wrong but with a callback
+/// whose cost grows with the square of an object's members.
+class Guard final : public nlohmann::json_sax<json> {
+ public:
+  explicit Guard(const JsonLimits& limits) : limits_(limits) {}
 
-std::string pointer_to(const std::vector<Level>& levels) {
-  std::string pointer;
-  for (const Level& level : levels) {
-    pointer = level.is_object ? child(std::move(pointer), level.key) : child(std::move(pointer), level.index);
+  bool null() override { return value(); }
+  bool boolean(bool) override { return value(); }
+  bool number_integer(number_integer_t) override { return value(); }
+  bool number_unsigned(number_unsigned_t) override { return value(); }
+  bool number_float(number_float_t, const string_t&) override { return value(); }
+  bool string(string_t&) override { return value(); }
+  bool binary(binary_t&) override { return value(); }
+  bool start_object(std::size_t) override { return start(true); }
+  bool start_array(std::size_t) override { return start(false); }
+  bool end_object() override { return end(); }
+  bool end_array() override { return end(); }
+  bool key(string_t& key) override {
+    Level& level = levels_.back();
+    level.key = key;
+    if (level.keys.insert(key).second) return true;
+    throw InputError(pointer(), "json_duplicate_key", "The key \"" + key + "\" appears twice in one object.");
   }
-  return pointer;
-}
+  bool parse_error(std::size_t byte, const std::string&, const json::exception& error) override {
+    if (dynamic_cast<const json::out_of_range*>(&error))
+      throw InputError(pointer(), "json_number_out_of_range", "A number here does not fit into a double.");
+    throw InputError("", "json_syntax", "Not JSON at byte " + std::to_string(byte) + ".");
+  }
 
-void value_ended(std::vector<Level>& levels) {
-  if (!levels.empty() && !levels.back().is_object) ++levels.back().index;
-}
+ private:
+  /// An array or object that is being read.
+  struct Level {
+    bool is_object;
+    std::size_t index = 0;                 ///< of the array's element that is being read
+    std::string key;                       ///< of the object's member that is being read
+    std::unordered_set<std::string> keys;  ///< seen so far
+  };
+
+  std::string pointer() const {
+    std::string text;
+    for (const Level& level : levels_)
+      text = level.is_object ? child(std::move(text), level.key) : child(std::move(text), level.index);
+    return text;
+  }
+  bool value() {
+    if (++values_ > limits_.values)
+      throw InputError("", "json_too_large",
+                       "The document has more than " + std::to_string(limits_.values) + " values.");
+    if (!levels_.empty() && !levels_.back().is_object) ++levels_.back().index;
+    return true;
+  }
+  bool start(bool is_object) {
+    if (static_cast<int>(levels_.size()) >= limits_.depth)
+      throw InputError(pointer(), "json_too_deep",
+                       "Arrays and objects are nested deeper than " + std::to_string(limits_.depth) + " levels.");
+    levels_.push_back({is_object, 0, {}, {}});
+    return true;
+  }
+  bool end() {
+    levels_.pop_back();
+    return value();
+  }
+
+  JsonLimits limits_;
+  std::vector<Level> levels_;
+  std::size_t values_ = 0;
+};
 
 }  // namespace
 
@@ -42,42 +90,11 @@ json parse_json(std::string_view bytes, const JsonLimits& limits) {
                      "The document has " + std::to_string(bytes.size()) + " bytes; at most " +
                          std::to_string(limits.bytes) + " are read.");
   }
-  std::vector<Level> levels;
-  const auto guard = [&](int, json::parse_event_t event, json& parsed) {
-    switch (event) {
-      case json::parse_event_t::object_start:
-      case json::parse_event_t::array_start:
-        if (static_cast<int>(levels.size()) >= limits.depth) {
-          throw InputError(pointer_to(levels), "json_too_deep",
-                           "Arrays and objects are nested deeper than " + std::to_string(limits.depth) + " levels.");
-        }
-        levels.push_back({event == json::parse_event_t::object_start, 0, {}, {}});
-        break;
-      case json::parse_event_t::key:
-        levels.back().key = parsed.get_ref<const std::string&>();
-        if (!levels.back().keys.insert(levels.back().key).second) {
-          throw InputError(pointer_to(levels), "json_duplicate_key",
-                           "The key \"" + levels.back().key + "\" appears twice in one object.");
-        }
-        break;
-      case json::parse_event_t::object_end:
-      case json::parse_event_t::array_end:
-        levels.pop_back();
-        value_ended(levels);
-        break;
-      case json::parse_event_t::value:
-        value_ended(levels);
-        break;
-    }
-    return true;
-  };
-  try {
-    return json::parse(bytes, guard);
-  } catch (const json::parse_error& error) {
-    throw InputError("", "json_syntax", "Not JSON at byte " + std::to_string(error.byte) + ".");
-  } catch (const json::out_of_range&) {
-    throw InputError(pointer_to(levels), "json_number_out_of_range", "A number here does not fit into a double.");
-  }
+  if (const std::size_t nul = bytes.find('\0'); nul != std::string_view::npos)  // the parser takes it for the end
+    throw InputError("", "json_syntax", "Not JSON at byte " + std::to_string(nul + 1) + ".");
+  Guard guard(limits);
+  json::sax_parse(bytes, &guard);
+  return json::parse(bytes);
 }
 
 }  // namespace toile

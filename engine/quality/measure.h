@@ -10,6 +10,10 @@
 
 namespace toile {
 
+/// Cloth that is deeper in the body than this [m] is on its wrong side: contact itself gives way by a millimetre or two
+/// where it is tight.
+inline constexpr double kWrongSide = 0.01;
+
 /// Stretch and compression, penetration (body may be null), self-intersections, counts and the hash of the final
 /// positions. Leaves alone what only the run knows (times, iterations, residual, kinetic energy, status).
 void measure_geometry(const Cloth& cloth, const BodyField* body, Report& report);

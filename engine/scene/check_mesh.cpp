@@ -7,6 +7,8 @@
 namespace toile {
 namespace {
 
+constexpr double kSmallestExtent = 1e-6;  // [m]
+
 double flat_area(const std::array<Vec2, 3>& corners) {
   const Vec2 a = corners[1] - corners[0], b = corners[2] - corners[0];
   return std::abs(a.x() * b.y() - a.y() * b.x()) / 2;
@@ -20,6 +22,10 @@ void check_garment_mesh(const GarmentMesh& shape, const std::string& pointer, st
     problems.push_back({pointer, code, std::move(detail)});
   };
   if (mesh.triangles.empty()) return report("empty_garment", "The garment's mesh has no triangles.");
+  Vec3 low = mesh.vertices.empty() ? Vec3(Vec3::Zero()) : mesh.vertices[0], high = low;
+  for (const Vec3& v : mesh.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+  if ((high - low).maxCoeff() < kSmallestExtent)
+    report("collapsed_mesh", "The garment's vertices are all in one place.");
   if (!std::isfinite(shape.uv_unit) || shape.uv_unit <= 0)
     report("not_finite", "The unit of the UVs must be positive.");
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {

@@ -63,6 +63,18 @@ bool check_numbers(const Panel& panel, std::size_t garment, std::vector<Problem>
   return problems.size() == before;
 }
 
+/// Whether a closed outline has no width, as against one whose loops cancel.
+bool on_a_line(const std::vector<Vec2>& outline) {
+  const Vec2& from = outline[0];
+  Vec2 along = Vec2::Zero();
+  for (const Vec2& p : outline)
+    if ((p - from).norm() > along.norm()) along = p - from;
+  double width = 0;
+  for (const Vec2& p : outline)
+    width = std::max(width, std::abs(along.x() * (p - from).y() - along.y() * (p - from).x()));
+  return width <= 1e-6 * along.squaredNorm();
+}
+
 /// Shape of a panel whose numbers are sound; returns an estimate of its vertices.
 double check_outline(const Panel& panel, double h, std::size_t garment, std::vector<Problem>& problems) {
   const std::size_t before = problems.size();
@@ -83,7 +95,7 @@ double check_outline(const Panel& panel, double h, std::size_t garment, std::vec
   }
   if (problems.size() > before) return 0;
   const double area = std::abs(signed_area(panel));
-  if (!(area > 1e-6 * perimeter / 2)) {
+  if (!(area > 1e-6 * perimeter / 2) && on_a_line(outline)) {
     problems.push_back({panel_pointer(garment, panel.name), "zero_area_panel", "The panel has no area."});
   } else if (const auto crossing = first_crossing(outline)) {
     const std::size_t a = edge_of[static_cast<std::size_t>(crossing->first)];

@@ -108,6 +108,7 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
   proximity_.update(start);
   contacts_ = proximity_.contacts();
   if (carried_.size() != x.size()) carried_.assign(n, Vec3::Zero());
+  pressed_.assign(n, 0.0);
 
   const double limit = options.max_move;
   for (int v = 0; v < n; ++v) {
@@ -162,7 +163,15 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
       if (!body_[v] || mobility[v] == 0) continue;
       const BodyField::Sample& s = body_samples_[v];
       const double lack = options.body_offset - (s.distance + s.normal.dot(x[v] - start[v]));
-      if (lack > 0) x[v] += s.normal * std::min(lack, limit);
+      if (lack <= 0) continue;
+      const double push = std::min(lack, limit);
+      x[v] += s.normal * push;
+      if (options.body_friction <= 0) continue;
+      // As much as the body has pushed in this step times the coefficient may be held back (Macklin et al. 2014, §6.1).
+      pressed_[v] += push;
+      const Vec3 move = x[v] - start[v], slip = move - s.normal.dot(move) * s.normal;
+      const double length = slip.norm(), held = options.body_friction * pressed_[v];
+      x[v] -= length > held ? Vec3(held / length * slip) : slip;
     }
     for (int v = 0; v < n; ++v)
       if (keep_height[v]) x[v].y() = std::max(x[v].y(), floor_[v]);

@@ -23,6 +23,7 @@ struct PositionBasedOptions {
   double bending = 0.1;       ///< share of a bend's correction taken per iteration
   int iterations = 8;         ///< sweeps over all constraints per step
   double body_offset = 3e-3;  ///< cloth stays this far off the body [m]
+  double body_friction = 0;   ///< Coulomb coefficient on the body, of movements in one step
   bool slide = true;          ///< pressed layers may slide and part (Proximity::limit_moves); false: within bounds only
   Vec3 fall = Vec3::Zero();   ///< added to every free vertex's movement per step [m]: gravity
 };
@@ -65,7 +66,8 @@ class PositionBased {
   std::vector<std::vector<int>> meeting_;  ///< sets of vertices that are to become one
   std::vector<Contact> contacts_;
   std::vector<BodyField::Sample> body_samples_;
-  std::vector<double> floor_;  ///< height at the start [m]
+  std::vector<double> pressed_;  ///< off the body in this step [m]
+  std::vector<double> floor_;    ///< height at the start [m]
   Positions carried_;
   double largest_move_ = 0;
 };

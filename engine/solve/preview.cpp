@@ -9,7 +9,8 @@ namespace toile {
 namespace {
 
 constexpr int kSteps = 1500;
-constexpr double kStill = 2e-5;  // [m] per step
+constexpr double kStill = 2e-5;    // [m] per step
+constexpr double kFriction = 0.3;  // where the body has none of its own
 
 }  // namespace
 
@@ -21,6 +22,7 @@ PreviewOutcome settle_preview(const Scene& scene, Cloth& cloth, const BodyField*
   options.fall = {0, -0.05e-3, 0};
   options.carry = 0.97;
   options.body_offset = largest_body_offset(cloth, scene.solver.body_offset);
+  if (scene.body) options.body_friction = scene.body->friction.value_or(kFriction);
   for (const HeldVertex& h : held) {
     solver.mobility[h.vertex] = 0;
     cloth.x[h.vertex] = position_at(h, last_key_frame(held));

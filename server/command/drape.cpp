@@ -18,6 +18,7 @@
 #include "server/queue/run_outcome.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -49,9 +50,12 @@ void draw_pictures(const Drape& drape, const RenderRequest& request, const fs::p
 }
 
 std::string not_converged_document(const Report& report) {
-  return failure_document(422, "not_converged",
-                          "The drape did not come to rest (" + report.stop_reason + " after " +
-                              std::to_string(report.steps) + " steps); its report and mesh tell how far it came.");
+  const std::string found = report.stop_reason == "inside_body"
+                                ? "The drape came to rest " +
+                                      std::to_string(std::lround(1e3 * report.penetration_max)) + " mm inside the body"
+                                : "The drape did not come to rest (" + report.stop_reason + " after " +
+                                      std::to_string(report.steps) + " steps)";
+  return failure_document(422, "not_converged", found + "; its report and mesh tell how far it came.");
 }
 
 int drape_to_files(const DrapeArguments& arguments, RunMonitor& monitor) {

@@ -96,6 +96,7 @@ void write_to(httplib::Response& target, HttpResponse response) {
   for (const auto& [name, value] : response.headers) target.set_header(name, value);
   if (!response.body.empty() || response.status != 304) target.set_header("Content-Type", response.content_type);
   target.set_header("X-Content-Type-Options", "nosniff");
+  target.set_header("Accept-Ranges", "none");  // the library would say that it takes them
   target.body = std::move(response.body);
 }
 

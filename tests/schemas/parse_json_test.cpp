@@ -3,6 +3,7 @@
 #include "tests/schemas/files.h"
 
 #include <gmock/gmock.h>
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 namespace toile {
@@ -43,6 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Nasty{"OverlongSlash", "[\"\xc0\xaf\"]", "json_syntax", ""},
                       Nasty{"LoneSurrogate", R"(["\ud800"])", "json_syntax", ""},
                       Nasty{"RawControlCharacter", std::string("[\"a\0b\"]", 7), "json_syntax", ""},
+                      Nasty{"RawNulAtTheEnd", std::string("{}\0 {}", 6), "json_syntax", ""},
                       Nasty{"TooLarge", R"({"a": [0, 1e400]})", "json_number_out_of_range", "/a/1"},
                       Nasty{"TooLargeInAnObject", R"([{}, {"b/c": -1e999}])", "json_number_out_of_range", "/1/b~1c"},
                       Nasty{"HundredThousandArrays", repeated("[", 100000) + repeated("]", 100000), "json_too_deep",
@@ -61,6 +63,18 @@ TEST(ParseJson, TakesThirtyTwoLevelsAndNotOneMore) {
 TEST(ParseJson, LimitsTheSize) {
   EXPECT_NO_THROW(parse_json("[1, 2]", {.bytes = 6}));
   EXPECT_EQ(problems_of([] { parse_json("[1, 2]", {.bytes = 5}); })[0].code, "json_too_large");
+}
+
+TEST(ParseJson, LimitsTheNumberOfValues) {
+  EXPECT_NO_THROW(parse_json("[1, {\"a\": 2}]", {.values = 4}));
+  EXPECT_EQ(problems_of([] { parse_json("[1, {\"a\": 2}]", {.values = 3}); })[0].code, "json_too_large");
+}
+
+/// A parser's callback looks at all siblings after each object: 100 s for these.
+TEST(ParseJson, ManySiblingsTakeAsLongAsTheirBytes) {
+  const auto start = std::chrono::steady_clock::now();
+  parse_json("[" + repeated("{\"a\": 1},", 450000) + "{}]");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
 TEST(ParseJson, TheSameKeyMayStandInTwoObjects) { EXPECT_EQ(parse_json(R"([{"a": 1}, {"a": 2}])")[1]["a"], 2); }

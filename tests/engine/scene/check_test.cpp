@@ -99,6 +99,10 @@ TEST(CheckScene, NamesWhatIsWrongWithAPattern) {
          pattern(s).panels[0].vertices = {{0, 0}, {0.3, 0}, {0.2, 0}, {0.1, 0}};
        }},
       {"self_crossing_panel " + front + "/edges/0", [](Scene& s) { pattern(s).panels[0].vertices[2].y() = -0.2; }},
+      {"self_crossing_panel " + front + "/edges/0",  // its loops' areas cancel
+       [](Scene& s) {
+         pattern(s).panels[0].vertices = {{0, 0}, {0.3, 0.3}, {0.3, 0}, {0, 0.3}};
+       }},
       {"self_crossing_panel " + front + "/edges/0",
        [](Scene& s) {
          pattern(s).panels[0].edges[0].curve = QuadraticEdge{{0.5, 5.0}};
@@ -131,6 +135,10 @@ TEST(CheckScene, NamesWhatIsWrongWithAMesh) {
       {"not_finite", [](Scene& s) { mesh(s).mesh.vertices[1].z() = kNan; }},
       {"not_finite", [](Scene& s) { mesh(s).mesh.vertices[1].z() = 1e200; }},
       {"not_finite", [](Scene& s) { mesh(s).uv_unit = 0; }},
+      {"collapsed_mesh",
+       [](Scene& s) {
+         for (Vec3& v : mesh(s).mesh.vertices) v = Vec3(1, 2, 3);
+       }},
       {"vertex_out_of_range", [](Scene& s) { mesh(s).mesh.triangles[0][1] = 4; }},
       {"vertex_out_of_range",
        [](Scene& s) {

@@ -40,6 +40,17 @@ TEST(SettlePreview, ASquareLiesOnABall) {
   EXPECT_LT(lowest, 0.07);
 }
 
+TEST(SettlePreview, FrictionKeepsItOnTheBallAndWithoutItItSlidesOff) {
+  for (const double friction : {0.3, 0.0}) {
+    Preview p;
+    p.scene.body->friction = friction;
+    for (Vec3& x : p.cloth.x) x.x() += 0.02;
+    const PreviewOutcome outcome = settle_preview(p.scene, p.cloth, p.body.get(), {}, kNeverCancel);
+    EXPECT_EQ(outcome.at_rest, friction > 0);
+    EXPECT_EQ(p.cloth.x[0].y() > -0.1, friction > 0);
+  }
+}
+
 TEST(SettlePreview, HeldVerticesEndWhereTheirLastKeyFramePutsThem) {
   Preview p;
   PinMoved lift;
