@@ -30,7 +30,7 @@ void check_garment_mesh(const GarmentMesh& shape, const std::string& pointer, st
     report("not_finite", "The unit of the UVs must be positive.");
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (is_place(mesh.vertices[v])) continue;
-    return report("not_finite", "Vertex " + std::to_string(v) + " is not a place.");
+    return report("not_finite", "Vertex " + std::to_string(v) + " is not finite, or beyond 10 km.");
   }
   const int count = static_cast<int>(mesh.vertices.size());
   const auto outside = [&](int v) { return v < 0 || v >= count; };

@@ -37,10 +37,11 @@ bool check_numbers(const Panel& panel, std::size_t garment, std::vector<Problem>
   const std::string pointer = panel_pointer(garment, panel.name);
   for (std::size_t v = 0; v < panel.vertices.size(); ++v) {
     if (sane_vector(panel.vertices[v])) continue;
-    problems.push_back({pointer + "/vertices/" + std::to_string(v), "not_finite", "The vertex is not a place."});
+    problems.push_back(
+        {pointer + "/vertices/" + std::to_string(v), "not_finite", "The vertex is not finite, or beyond 10 km."});
   }
   if (!sane_vector(panel.translation)) {
-    problems.push_back({pointer + "/translation", "not_finite", "The translation is not finite."});
+    problems.push_back({pointer + "/translation", "not_finite", "The translation is not finite, or beyond 10 km."});
   }
   if (!panel.rotation.allFinite() ||
       (panel.rotation.transpose() * panel.rotation - Mat3::Identity()).cwiseAbs().maxCoeff() > 1e-6) {
@@ -57,7 +58,8 @@ bool check_numbers(const Panel& panel, std::size_t garment, std::vector<Problem>
     } else if (edge.end != panel.edges[(e + 1) % n].start) {
       problems.push_back({place, "open_panel_loop", "The edge does not end where the next one starts."});
     } else if (!sane_curve(edge)) {
-      problems.push_back({place + "/curvature", "not_finite", "The edge's curvature is not finite, or has no radius."});
+      problems.push_back({place + "/curvature", "not_finite",
+                          "The edge's curvature is not finite, has no radius, or leads beyond 10 km."});
     }
   }
   return problems.size() == before;

@@ -64,7 +64,7 @@ struct BodyCheck {
     Vec3 low = mesh.vertices.front(), high = low;
     for (const Vec3& vertex : mesh.vertices) {
       if (!is_place(vertex)) {
-        problems.push_back({"/body/mesh", "not_finite", "A vertex of the body is not a place."});
+        problems.push_back({"/body/mesh", "not_finite", "A vertex of the body is not finite, or beyond 10 km."});
         return;
       }
       low = low.cwiseMin(vertex);
