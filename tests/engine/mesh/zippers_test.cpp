@@ -50,15 +50,8 @@ TEST(Zippers, MayCloseFromTheTop) {
 }
 
 TEST(Zippers, OfAMeshNamesItsVertices) {
-  const Scene pattern = zipped(0);
-  Cloth cloth = build_cloth(pattern);
-  const auto sides = zipper_sides(cloth, 0, 0);
-  GarmentMesh shape;
-  shape.mesh = surface_mesh(cloth);
-  Scene scene = pattern;
-  scene.garments[0].shape = shape;
+  Scene scene = zipped_mesh(zipped(0));
   Zipper& zipper = scene.garments[0].zippers[0];
-  zipper.sides = {PinVertices{sides[0]}, PinVertices{sides[1]}};
   zipper.closed_fraction = 0.6;
   EXPECT_EQ(zipper_problem_of(scene), "none");
   Cloth sewn = build_cloth(scene);

@@ -70,15 +70,9 @@ TEST(PlaceZippers, EndsLieOnTheRightSideWithTheirSpringsAtRest) {
 }
 
 TEST(PlaceZippers, ASeamThatShortensOneSideIsRefused) {
-  const Scene pattern = zipped(0.5);
-  Cloth drawn = build_cloth(pattern);
-  const auto sides = zipper_sides(drawn, 0, 0);
-  GarmentMesh shape;
-  shape.mesh = surface_mesh(drawn);
-  shape.seams = {{sides[1][8], sides[1][9]}};
-  Scene scene = pattern;
-  scene.garments[0].shape = shape;
-  scene.garments[0].zippers[0].sides = {PinVertices{sides[0]}, PinVertices{sides[1]}};
+  Scene scene = zipped_mesh(zipped(0.5));
+  const std::vector<int>& side = std::get<PinVertices>(scene.garments[0].zippers[0].sides[1]).vertices;
+  std::get<GarmentMesh>(scene.garments[0].shape).seams = {{side[8], side[9]}};
   try {
     make_trimmings(scene, sewn(scene));
     ADD_FAILURE();

@@ -5,6 +5,7 @@
 #include "engine/geometry/body_field.h"
 #include "engine/mesh/build_cloth.h"
 #include "engine/mesh/topology.h"
+#include "engine/mesh/zippers.h"
 #include "engine/monitor.h"
 #include "engine/quality/intersections.h"
 #include "engine/quality/penetration.h"
@@ -65,6 +66,18 @@ inline Scene zipped_halves(double width, double left_height, double right_height
   zipper.sides = {PinEdge{0, 1}, PinEdge{1, 3}};
   zipper.closed_fraction = closed_fraction;
   scene.garments[0].zippers = {zipper};
+  return scene;
+}
+
+/// The scene's only garment as a mesh, apart as it is built, its zipper's sides by their vertices.
+inline Scene zipped_mesh(const Scene& pattern) {
+  const Cloth cloth = build_cloth(pattern);
+  const auto sides = zipper_sides(cloth, 0, 0);
+  GarmentMesh shape;
+  shape.mesh = surface_mesh(cloth);
+  Scene scene = pattern;
+  scene.garments[0].shape = std::move(shape);
+  scene.garments[0].zippers[0].sides = {PinVertices{sides[0]}, PinVertices{sides[1]}};
   return scene;
 }
 
