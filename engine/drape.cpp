@@ -60,15 +60,21 @@ SolverOptions options_of(const Scene& scene) {
 }
 
 struct Bodies {
-  std::optional<BodyField> whole, without_overhangs;
-  BodyFields fields() const { return {whole ? &*whole : nullptr, without_overhangs ? &*without_overhangs : nullptr}; }
+  std::optional<BodyField> whole, without_overhangs, for_legs;
+  BodyFields fields() const {
+    const auto given = [](const std::optional<BodyField>& field) { return field ? &*field : nullptr; };
+    return {given(whole), given(without_overhangs), given(for_legs)};
+  }
 };
 
 Bodies make_bodies(const Scene& scene, const Cloth& cloth) {
   Bodies bodies;
   if (!scene.body) return bodies;
   bodies.whole = make_body_field(*scene.body, smallest_edge_length(cloth));
-  if (!cloth.seam_pairs.empty()) bodies.without_overhangs = bodies.whole->without_overhangs();
+  if (!cloth.seam_pairs.empty()) {
+    bodies.without_overhangs = bodies.whole->without_overhangs();
+    bodies.for_legs = bodies.without_overhangs->with_pointed_toes();
+  }
   return bodies;
 }
 

@@ -2,8 +2,10 @@
 
 #include "engine/geometry/dress_form.h"
 #include "engine/geometry/mesh_solid.h"
+#include "engine/geometry/pointed_toes.h"
 #include "engine/geometry/primitive_solids.h"
 
+#include <cmath>
 #include <type_traits>
 
 namespace toile {
@@ -11,6 +13,16 @@ namespace toile {
 BodyField BodyField::without_overhangs() const {
   std::shared_ptr<const Solid> standing = solid_->without_overhangs();
   return standing ? BodyField(std::move(standing)) : *this;
+}
+
+double BodyField::ankle() const {
+  constexpr double kAnkle = 0.06;  // of the height, over the lowest point: where a foot has become a shin
+  const Box box = bounds();
+  return box.lower.y() + kAnkle * (box.upper.y() - box.lower.y());
+}
+
+BodyField BodyField::with_pointed_toes() const {
+  return std::isfinite(ankle()) ? BodyField(toile::with_pointed_toes(solid_, ankle())) : *this;
 }
 
 BodyField make_body_field(const Body& body, double edge_length) {

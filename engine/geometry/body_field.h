@@ -37,6 +37,11 @@ class BodyField {
   /// or up only, where that is at least 100 mm tall. Arms and hands in an A-pose go, cut level with the armpits; legs,
   /// torso and head stay. Panels of skirts and trousers ignore hands while they are sewn.
   BodyField without_overhangs() const;
+  /// The body with its feet pointing down: what lies lower than ankle() goes straight on from there. Legs
+  /// of trousers mind it while they are sewn, or they would close under the soles. A body without end stays as it is.
+  BodyField with_pointed_toes() const;
+  /// The height [m] below which feet are.
+  double ankle() const;
 
  private:
   std::shared_ptr<const Solid> solid_;

@@ -18,35 +18,69 @@ constexpr int kRidingSteps = 4000;     // at most, of a waistband up the body: t
 constexpr int kSettlingSteps = 800;    // at most, of a garment that nothing attaches: weight decides where it goes
 constexpr int kRidingStretch = 100;    // steps over which it is watched: it jitters more than it moves in one
 constexpr double kRidingStill = 1e-3;  // [m] over that many
+constexpr double kPush = 0.05e-3;      // [m] a step, of what falls or rises
 constexpr int kFallingSteps = 400;     // a skirt sewn through raised arms falls below them
+constexpr int kRisingSteps = 1000;     // at most
+constexpr double kFallen = 0.98;       // progress
+constexpr double kFootStep = 0.01;     // [m] between the heights where a foot is looked for
 constexpr double kSlitGap = 2e-4;      // [m]
 constexpr double kPressedGap = 1e-9;   // [m] folding has closed what is nearer
 
-/// Lets what was sewn through the arms fall below them, then minds the whole body.
-void fall_clear(AssemblyStage& stage, Cloth& cloth, const std::vector<const BodyField*>& field_apart,
-                const std::vector<int>& old_to_new, const BodyFields& fields, const std::vector<char>& keep,
-                const std::vector<char>& held, double offset) {
+/// Whether a foot is over the point. What is less deep in one leaves it by the nearest way, which is upwards.
+bool under_foot(const BodyFields& fields, const Vec3& point) {
+  for (Vec3 p = point + kFootStep * Vec3::UnitY(); p.y() < fields.whole->ankle(); p.y() += kFootStep)
+    if (fields.whole->distance(p) < 0) return fields.for_legs->distance(point) > 0;
+  return false;
+}
+
+/// Trouser legs that were sewn round pointed toes are drawn up until no foot is in them. True if one was.
+bool rise_clear(AssemblyStage& stage, PositionBased& solver, Positions& x, const PositionBasedOptions& options,
+                const BodyFields& fields, const std::vector<const BodyField*>& field) {
+  for (int s = 0; s < kRisingSteps; ++s) {
+    bool any = false;
+    for (std::size_t v = 0; v < x.size(); ++v) {
+      const bool caught = field[v] == fields.for_legs && under_foot(fields, x[v]);
+      solver.nudge[v] = caught ? Vec3(0, kPush, 0) : Vec3(0, 0, 0);
+      any = any || caught;
+    }
+    if (!any) return s > 0;
+    stage.step(solver, x, options, kFallen);
+  }
+  return true;
+}
+
+/// Lets skirts and trousers fall, below hands that they were sewn through and towards how they will hang, and rise
+/// above feet; then they mind the whole body.
+void clear_limbs(AssemblyStage& stage, Cloth& cloth, const std::vector<const BodyField*>& field_apart,
+                 const std::vector<int>& old_to_new, const BodyFields& fields, const std::vector<char>& keep,
+                 const std::vector<char>& held, double offset) {
   std::vector<const BodyField*> field(cloth.x.size(), fields.whole);
   bool any = false;
   for (std::size_t v = 0; v < field_apart.size(); ++v)
-    if (old_to_new[v] >= 0 && field_apart[v] == fields.without_overhangs)
-      field[old_to_new[v]] = fields.without_overhangs;
+    if (old_to_new[v] >= 0 && field_apart[v] == fields.for_legs) field[old_to_new[v]] = fields.for_legs;
   for (std::size_t v = 0; v < cloth.x.size(); ++v)
-    any = any || (field[v] != fields.whole && fields.whole->distance(cloth.x[v]) < offset);
+    any = any ||
+          (field[v] != fields.whole && (fields.whole->distance(cloth.x[v]) < offset || under_foot(fields, cloth.x[v])));
   if (!any) return;
-  PositionBasedOptions options;
-  options.body_offset = offset;
-  options.carry = 0.98;
-  options.fall = {0, -0.05e-3, 0};
-  const auto run = [&](const std::vector<const BodyField*>& minded, int steps) {
+  PositionBasedOptions falling;
+  falling.body_offset = offset;
+  falling.carry = 0.98;
+  falling.fall = {0, -kPush, 0};
+  PositionBasedOptions staying = falling;
+  staying.fall.setZero();
+  const auto solver_minding = [&](const std::vector<const BodyField*>& minded) {
     PositionBased solver(cloth, make_collision_mesh(cloth, stage.scene.solver.contact_distance), minded);
     solver.keep_height = keep;
     for (std::size_t v = 0; v < held.size(); ++v)
       if (held[v]) solver.mobility[v] = 0;
-    for (int s = 0; s < steps; ++s) stage.step(solver, cloth.x, options, 0.9 + 0.1 * s / steps);
+    return solver;
   };
-  run(field, kFallingSteps);
-  run(std::vector<const BodyField*>(cloth.x.size(), fields.whole), kFallingSteps / 4);
+  PositionBased dressing = solver_minding(field);
+  for (int s = 0; s < kFallingSteps; ++s)
+    stage.step(dressing, cloth.x, falling, 0.9 + (kFallen - 0.9) * s / kFallingSteps);
+  const bool risen = rise_clear(stage, dressing, cloth.x, staying, fields, field);
+  PositionBased dressed = solver_minding(std::vector<const BodyField*>(cloth.x.size(), fields.whole));
+  for (int s = 0; s < kFallingSteps / 4; ++s) stage.step(dressed, cloth.x, risen ? staying : falling, 1);
 }
 
 /// What is tight where the pattern put it slides along the body, as it would in wear, to where it is less stretched: a
@@ -125,8 +159,8 @@ Assembly assemble(const Scene& scene, Cloth apart, const BodyFields& fields, con
       if (merged[v] >= 0 && field[v] != fields.whole) sewn_field[merged[v]] = field[v];
     ride_up(stage, result.cloth, sewn_field, sewn_keep, sewn_held, offset);
   }
-  if (fields.without_overhangs && result.open_seams.empty())
-    fall_clear(stage, result.cloth, field, merged, fields, sewn_keep, sewn_held, offset);
+  if (fields.for_legs && result.open_seams.empty())
+    clear_limbs(stage, result.cloth, field, merged, fields, sewn_keep, sewn_held, offset);
   for (std::size_t v = 0; v < sewn_keep.size(); ++v)
     if (sewn_keep[v]) result.attached.push_back(static_cast<int>(v));
   for (const int v : pressed) result.old_to_new.push_back(v < 0 ? -1 : merged[v]);

@@ -11,11 +11,13 @@
 
 namespace toile {
 
-/// The fields that the cloth minds: the whole body, and the body without what hangs from above (arms, hands), which
-/// panels of legs pass while they are sewn, as one raises one's arms to put on a skirt. Null: no body.
+/// The fields that the cloth minds. Null: no body.
 struct BodyFields {
   const BodyField* whole = nullptr;
-  const BodyField* without_overhangs = nullptr;
+  const BodyField* without_overhangs = nullptr;  ///< without what hangs from above (arms, hands)
+  /// That, with toes that point down: what panels of legs mind while they are sewn, as one raises one's arms to put on
+  /// a skirt and points one's toes to get into trousers.
+  const BodyField* for_legs = nullptr;
 };
 
 struct Assembly {

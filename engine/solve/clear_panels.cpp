@@ -102,10 +102,10 @@ bool touches_body(const Cloth& cloth, const PanelFeatures& panel, const std::vec
 
 std::vector<const BodyField*> field_of_vertices(const Cloth& apart, const BodyFields& fields) {
   std::vector<const BodyField*> field(apart.x.size(), fields.whole);
-  if (!fields.without_overhangs) return field;
+  if (!fields.for_legs) return field;
   for (std::size_t t = 0; t < apart.triangles.size(); ++t)
     if (apart.panels[apart.triangle_panel[t]].label == "leg")
-      for (int v : apart.triangles[t]) field[v] = fields.without_overhangs;
+      for (int v : apart.triangles[t]) field[v] = fields.for_legs;
   return field;
 }
 

@@ -27,6 +27,7 @@ double list_radius(const Cloth& cloth) {
 PositionBased::PositionBased(const Cloth& cloth, CollisionMesh mesh, std::vector<const BodyField*> body_of_vertex)
     : mobility(cloth.x.size(), 1.0),
       keep_height(cloth.x.size(), 0),
+      nudge(cloth.x.size(), Vec3::Zero()),
       proximity_(std::move(mesh), list_radius(cloth)),
       body_(std::move(body_of_vertex)),
       body_samples_(cloth.x.size()),
@@ -113,7 +114,7 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
   const double limit = options.max_move;
   for (int v = 0; v < n; ++v) {
     if (mobility[v] == 0) continue;
-    Vec3 move = options.carry * carried_[v] + options.fall;
+    Vec3 move = options.carry * carried_[v] + options.fall + nudge[v];
     const double length = move.norm();
     if (length > limit) move *= limit / length;
     x[v] += move;

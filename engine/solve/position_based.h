@@ -37,6 +37,8 @@ class PositionBased {
   std::vector<double> mobility;
   /// Vertices that don't sink while they slide sideways and up (a waistband before it is attached).
   std::vector<char> keep_height;
+  /// Added to each vertex's movement per step, beside PositionBasedOptions::fall [m].
+  Positions nudge;
 
   /// From now on vertices joined by these pairs are drawn into their common mean.
   void set_pulls(const std::vector<SeamPull>& pulls);

@@ -28,10 +28,6 @@ Vec3 random_in(std::mt19937& random, double half) {
   return {place(random), place(random), place(random)};
 }
 
-TriangleMesh box_mesh(const Vec3& center, const Vec3& half) {
-  return make_body_field(Body{BoxBody{center, half, Mat3::Identity()}, 0.3}, 0.01).surface();
-}
-
 TEST(WindingNumber, OneInsideZeroOutsideAndTwoInTheOverlap) {
   const TriangleMesh mesh = samples::joined(icosphere(3, 0.1), icosphere(3, 0.1, Vec3(0.1, 0, 0)));
   const WindingNumber winding(mesh.vertices, mesh.triangles);
@@ -103,7 +99,7 @@ TEST(MeshField, DistanceIsContinuousOverCellsBricksAndTheGridsEnd) {
 
 TEST(MeshField, BoxEdgesAndFacesAreExact) {
   const Vec3 half(0.1, 0.15, 0.05);
-  const BodyField mesh = field_of(box_mesh(Vec3::Zero(), half));
+  const BodyField mesh = field_of(samples::box_mesh(Vec3::Zero(), half));
   const BodyField exact = make_body_field(Body{BoxBody{Vec3::Zero(), half, Mat3::Identity()}, 0.3}, 0.01);
   std::mt19937 random(4);
   for (int i = 0; i < 5000; ++i) {
@@ -205,9 +201,9 @@ TEST(MeshField, SameOnOneThreadAndOnMany) {
 
 TEST(Overhangs, AHangingArmIsCutLevelWithItsShoulder) {
   // A post with a beam at its top, from the end of which a bar hangs down.
-  TriangleMesh body =
-      samples::joined(box_mesh({0, 0.5, 0}, {0.1, 0.5, 0.1}), box_mesh({0.2, 0.95, 0}, {0.3, 0.05, 0.05}));
-  body = samples::joined(body, box_mesh({0.45, 0.7, 0}, {0.04, 0.27, 0.04}));
+  TriangleMesh body = samples::joined(samples::box_mesh({0, 0.5, 0}, {0.1, 0.5, 0.1}),
+                                      samples::box_mesh({0.2, 0.95, 0}, {0.3, 0.05, 0.05}));
+  body = samples::joined(body, samples::box_mesh({0.45, 0.7, 0}, {0.04, 0.27, 0.04}));
   const BodyField whole = field_of(body), standing = whole.without_overhangs();
   EXPECT_LT(whole.distance({0.45, 0.6, 0}), -0.02);
   EXPECT_GT(standing.distance({0.45, 0.6, 0}), 0.1);
@@ -216,6 +212,32 @@ TEST(Overhangs, AHangingArmIsCutLevelWithItsShoulder) {
   // The cut closes at the height of the beam's underside.
   EXPECT_NEAR(standing.distance({0.45, 0.88, 0}), 0.02, 0.008);
   EXPECT_NEAR(standing.sample({0.45, 0.88, 0}).normal.y(), -1, 0.05);
+}
+
+TEST(PointedToes, AFootGoesStraightDownFromItsAnkle) {
+  // A shin, and a foot that reaches forward from it.
+  const BodyField whole = field_of(samples::joined(samples::box_mesh({0, 0.5, 0}, {0.05, 0.5, 0.05}),
+                                                   samples::box_mesh({0, 0.025, 0.08}, {0.05, 0.025, 0.13}))),
+                  pointed = whole.with_pointed_toes();
+  EXPECT_NEAR(whole.ankle(), 0.06, 1e-3);
+  EXPECT_LT(whole.distance({0, 0.03, 0.15}), -0.01);
+  EXPECT_GT(pointed.distance({0, 0.03, 0.15}), 0.005);
+  for (const double y : {-0.5, -0.01, 0.03}) {
+    EXPECT_LT(pointed.distance({0, y, 0.03}), -0.01);
+    const BodyField::Sample before = pointed.sample({0, y, 0.06});
+    EXPECT_NEAR(before.distance, 0.01, 2e-3);
+    EXPECT_NEAR(before.normal.norm(), 1, 1e-12);
+    EXPECT_GT(before.normal.z(), 0.9);
+    EXPECT_EQ(before.normal.y(), 0);
+  }
+  for (const double y : {0.07, 0.5, 0.99})
+    EXPECT_EQ(pointed.distance({0.02, y, 0.06}), whole.distance({0.02, y, 0.06}));
+  EXPECT_EQ(pointed.bounds().lower, whole.bounds().lower);
+}
+
+TEST(PointedToes, ABodyWithoutEndStaysAsItIs) {
+  const BodyField ground = make_body_field(Body{PlaneBody{}, 0.3}, 0.02);
+  EXPECT_EQ(ground.with_pointed_toes().distance({0, -1, 0}), ground.distance({0, -1, 0}));
 }
 
 struct RealBody {

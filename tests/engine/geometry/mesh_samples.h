@@ -1,6 +1,7 @@
 #pragma once
 // For tests: simple shapes, the real bodies where ../shared is there, and a given number of threads.
 
+#include "engine/geometry/body_field.h"
 #include "engine/mesh/triangle_mesh.h"
 #include "engine/types.h"
 
@@ -66,6 +67,10 @@ inline TriangleMesh icosphere(int subdivisions, double radius, const Vec3& cente
   }
   for (Vec3& x : mesh.vertices) x = center + radius * x.normalized();
   return mesh;
+}
+
+inline TriangleMesh box_mesh(const Vec3& center, const Vec3& half) {
+  return make_body_field(Body{BoxBody{center, half, Mat3::Identity()}, 0.3}, 0.01).surface();
 }
 
 inline TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {

@@ -103,11 +103,12 @@ TEST(FieldOfVertices, OnlyPanelsOfLegsIgnoreWhatHangs) {
   pattern.panels[1].label = "leg";
   const Placed placed(pattern);
   const BodyField other = placed.whole;
-  const auto field = field_of_vertices(placed.cloth, {&placed.whole, &other});
+  const auto field = field_of_vertices(placed.cloth, {&placed.whole, &placed.whole, &other});
   for (std::size_t t = 0; t < placed.cloth.triangles.size(); ++t)
     for (int v : placed.cloth.triangles[t])
       EXPECT_EQ(field[v], placed.cloth.triangle_panel[t] ? &other : &placed.whole);
-  for (const BodyField* f : field_of_vertices(placed.cloth, {&placed.whole, nullptr})) EXPECT_EQ(f, &placed.whole);
+  for (const BodyField* f : field_of_vertices(placed.cloth, {&placed.whole, &other, nullptr}))
+    EXPECT_EQ(f, &placed.whole);
   for (const BodyField* f : field_of_vertices(placed.cloth, {})) EXPECT_EQ(f, nullptr);
 }
 

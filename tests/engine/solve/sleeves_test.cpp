@@ -14,7 +14,7 @@ constexpr double kRadius = 0.05, kHeight = 0.09;
 struct Arm {
   BodyField body;
   Cloth panel;
-  BodyFields fields() const { return {&body, nullptr}; }
+  BodyFields fields() const { return {&body, nullptr, nullptr}; }
 };
 
 Arm arm_under_panel(double width) {
