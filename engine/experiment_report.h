@@ -9,7 +9,6 @@ namespace toile {
 
 /// One hanging of a Cusick specimen.
 struct CusickStart {
-  int start_nodes = 0;                  ///< waves of the start's small perturbation; 0: many at once
   bool at_rest = false;                 ///< otherwise it is not counted
   double coefficient = 0;               ///< of this hanging, 0 to 1
   int nodes = 0;                        ///< folds of the shadow's outline

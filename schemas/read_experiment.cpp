@@ -18,7 +18,7 @@ constexpr const char* kPointer = "/experiment";
 
 /// The keys that a kind takes besides kind, fabric and edge_length_mm.
 std::set<std::string> keys_of(const std::string& kind) {
-  if (kind == "cusick_drape") return {"disc_mm", "support_mm", "starts"};
+  if (kind == "cusick_drape") return {"disc_mm", "support_mm", "starts", "lowering_s"};
   if (kind == "cantilever") return {"direction", "width_mm", "overhang_mm"};
   if (kind == "uniaxial") return {"direction", "length_mm", "width_mm", "strains_percent"};
   if (kind == "bias_extension") return {"length_mm", "width_mm", "strains_percent"};
@@ -43,6 +43,7 @@ Experiment read_kind(const json& document, const Fabric& fabric) {
     set_millimetres(document, "support_mm", e.support_diameter);
     set_millimetres(document, "edge_length_mm", e.edge_length);
     e.starts = document.value("starts", e.starts);
+    e.lowering_time = document.value("lowering_s", e.lowering_time);
     return e;
   }
   const auto read_strip = [&](auto e) {

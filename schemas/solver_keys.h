@@ -22,6 +22,7 @@ void for_each_solver_key(Options& o, Visit visit) {
   visit("relaxation_time_s", o.relaxation_time, 1.0);
   visit("relaxation_stiffness", o.relaxation_stiffness, 1.0);
   visit("relaxation_step_divisor", o.relaxation_step_divisor, 1.0);
+  visit("weight_ramp_s", o.weight_ramp_time, 1.0);
   visit("contact_stiffness_N_m", o.contact_stiffness, 1.0);
   visit("contact_distance_mm", o.contact_distance, 1e-3);
   visit("body_offset_mm", o.body_offset, 1e-3);

@@ -16,8 +16,7 @@ json document(const CusickReport& report) {
   for (const CusickStart& start : report.starts) {
     json amplitudes = json::array();
     for (const double amplitude : start.node_amplitudes) amplitudes.push_back(1e3 * amplitude);
-    starts.push_back({{"start_nodes", start.start_nodes},
-                      {"at_rest", start.at_rest},
+    starts.push_back({{"at_rest", start.at_rest},
                       {"drape_coefficient_percent", 100 * start.coefficient},
                       {"nodes", start.nodes},
                       {"node_amplitudes_mm", std::move(amplitudes)},

@@ -12,11 +12,13 @@
 namespace toile {
 namespace {
 
-constexpr double kWave = 0.05;  ///< height of the start's waves at the rim over the overhang
-constexpr int kRays = 720;      ///< of the outline
+constexpr double kWave = 0.05;          ///< height of the start's waves at the rim over the overhang
+constexpr double kLoweringStep = 0.01;  ///< slow loading needs no smaller ones [s]
+constexpr int kRays = 720;              ///< of the outline
 constexpr int kHarmonics = 12;
 constexpr double kNodeProminence = 0.05;  ///< of the overhang: what an eye sees as a fold
-constexpr double kPlate = 0.002;          ///< half the thickness of the two plates, for pictures [m]
+constexpr int kLeastRealNodes = 3, kMostRealNodes = 8;
+constexpr double kPlate = 0.002;  ///< half the thickness of the two plates, for pictures [m]
 constexpr double kPi = std::numbers::pi;
 
 struct Ring {
@@ -58,12 +60,12 @@ Ring ring_mesh(double inner, double outer, double edge_length) {
   return ring;
 }
 
-/// Height over the level, −1 to 1: one wave number, or all of 2 to 10 with phases that follow the golden angle.
-double wave(int nodes, double angle) {
+/// Height over the level, −1 to 1: the sum of 2 to 10 waves, with phases that follow the golden angle, other ones for
+/// each start.
+double waves(int start, double angle) {
   constexpr double kGolden = 2.399963;
-  if (nodes > 0) return std::cos(nodes * angle + kGolden * nodes);
   double sum = 0;
-  for (int k = 2; k <= 10; ++k) sum += std::cos(k * angle + kGolden * k * k) / 9;
+  for (int k = 2; k <= 10; ++k) sum += std::cos(k * angle + kGolden * (k * k + start * (7 * k + 1))) / 9;
   return sum;
 }
 
@@ -93,16 +95,19 @@ CusickResult hang(const CusickDrape& experiment, int threads, Monitor& monitor) 
   int counted = 0;
   for (int k = 0; k < experiment.starts; ++k) {
     CusickStart start;
-    start.start_nodes = k == 0 ? 0 : 4 + (k - 1) % 5;
     const Placement place = [&](const Vec2& p) {
       const double share = (p.norm() - inner) / overhang;
-      return Vec3(p.x(), kWave * overhang * share * share * wave(start.start_nodes, std::atan2(p.y(), p.x())), -p.y());
+      return Vec3(p.x(), kWave * overhang * share * share * waves(k, std::atan2(p.y(), p.x())), -p.y());
     };
     Garment disc = specimen("disc", ring.mesh, place, 0, experiment.fabric, experiment.edge_length);
     disc.pins = {{PinVertices{ring.inner}, PinFixed{}, true}};
     PartMonitor part(monitor, k / static_cast<double>(experiment.starts),
                      (k + 1) / static_cast<double>(experiment.starts));
-    Drape drape = drape_specimen(experiment_scene(std::move(disc), threads), part);
+    Scene scene = experiment_scene(std::move(disc), threads);
+    scene.solver.weight_ramp_time = experiment.lowering_time;
+    if (experiment.lowering_time > 0) scene.solver.max_time_step = kLoweringStep;
+    scene.solver.simulated_time_limit += experiment.lowering_time;
+    Drape drape = drape_specimen(scene, part);
 
     start.at_rest = drape.report.status == "converged";
     const double whole = kPi * (outer * outer - inner * inner);
@@ -123,6 +128,12 @@ CusickResult hang(const CusickDrape& experiment, int threads, Monitor& monitor) 
     }
     result.report.starts.push_back(std::move(start));
   }
+  std::vector<std::string>& warnings = result.drape.report.warnings;
+  for (const CusickStart& start : result.report.starts)
+    if (start.nodes > kMostRealNodes || (start.nodes > 0 && start.nodes < kLeastRealNodes))
+      warnings.push_back("unusual_nodes: a specimen hangs in " + std::to_string(start.nodes) +
+                         " folds; real cloth in " + std::to_string(kLeastRealNodes) + " to " +
+                         std::to_string(kMostRealNodes));
   if (counted > 0) {
     result.report.coefficient /= counted;
     result.report.nodes /= counted;

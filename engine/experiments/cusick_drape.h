@@ -12,11 +12,12 @@ struct CusickResult {
   Drape drape;  ///< the hanging of least energy; body_mesh is the support's plates
 };
 
-/// The mesh of the ring that hangs: the part between the plates is held flat, and its rim is a clamp. Start k is flat
-/// but for waves that grow towards the rim, where they are a twentieth of the overhang high: the first has many, the
-/// others 4, 5, 6, 7, 8, 4, … in turn, because equilibria with several counts exist and a cloth may come to rest in any
-/// of them. Let go, it hangs by drape(). Throws what drape() throws. If no start comes to rest, drape.report.status is
-/// "not_converged".
+/// The mesh of the ring that hangs: the part between the plates is held flat, and its rim is a clamp. A start is flat
+/// but for waves that grow towards the rim, up to a twentieth of the overhang high: all of 2 to 10 a turn, with phases
+/// of its own, because equilibria with several counts of folds exist, and no specimen is as flat as another. Under it
+/// is a platform, lowered in lowering_time: its share of the weight falls linearly to none, by
+/// SolverOptions::weight_ramp_time. So it hangs by drape(). Throws what drape() throws. If no start comes to rest,
+/// drape.report.status is "not_converged". Warns of `unusual_nodes`: counts that real cloth does not show.
 CusickResult hang(const CusickDrape& experiment, int threads, Monitor& monitor);
 
 }  // namespace toile

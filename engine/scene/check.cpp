@@ -81,6 +81,8 @@ void check_solver(const SolverOptions& solver, std::vector<Problem>& problems) {
   require(not_negative(solver.relaxation_time), "relaxation_time_s", "The time must not be negative.");
   require(positive(solver.relaxation_stiffness), "relaxation_stiffness", "The factor must be positive.");
   require(positive(solver.relaxation_step_divisor), "relaxation_step_divisor", "The divisor must be positive.");
+  require(not_negative(solver.weight_ramp_time) && solver.weight_ramp_time < solver.simulated_time_limit,
+          "weight_ramp_s", "The weight must be whole before simulated_time_limit_s.");
   require(positive(solver.contact_stiffness), "contact_stiffness_N_m", "The stiffness must be positive.");
   require(not_negative(solver.contact_distance), "contact_distance_mm", "The distance must not be negative.");
   require(not_negative(solver.body_offset), "body_offset_mm", "The offset must not be negative.");

@@ -19,6 +19,7 @@ class Checker {
       return;
     }
     require(e.starts >= 1, "/starts", "There must be a start.");
+    require(std::isfinite(e.lowering_time) && e.lowering_time >= 0, "/lowering_s", "The time must not be negative.");
     mesh(std::numbers::pi / 4 * (std::pow(e.disc_diameter, 2) - std::pow(e.support_diameter, 2)), e.edge_length);
     require(e.edge_length <= 0.5 * (e.disc_diameter - e.support_diameter) / 3, "/edge_length_mm",
             "The overhang needs three edges at least.");

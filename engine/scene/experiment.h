@@ -19,6 +19,7 @@ struct CusickDrape {
   double disc_diameter = 0.30, support_diameter = 0.18;  ///< [m]
   double edge_length = 0.005;                            ///< of the mesh [m]
   int starts = 6;                                        ///< hangings of the one specimen
+  double lowering_time = 8;  ///< in which the platform under the specimen is lowered [s]; 0: it drops
 };
 
 /// engine/experiments/cantilever.h

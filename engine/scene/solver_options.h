@@ -20,6 +20,7 @@ struct SolverOptions {
   double relaxation_time = 0.1;         ///< window of the initial relaxation [s]; 0: none
   double relaxation_stiffness = 1e-2;   ///< factor on fabric stiffness at its start, rising to 1 linearly
   double relaxation_step_divisor = 16;  ///< h starts at h_max over this
+  double weight_ramp_time = 0;          ///< weight grows linearly from none to whole in this time [s]
   double contact_stiffness = 1e2;       ///< of point repulsion [N/m]
   double contact_distance = 0;          ///< cloth to cloth [m]; 0: from thickness and edge length
   double body_offset = 0;               ///< cloth's mid-surface to body [m]; 0: from thickness and edge length

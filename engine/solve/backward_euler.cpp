@@ -73,7 +73,8 @@ struct BackwardEuler::Implementation {
         matrix(system.make_matrix()),
         tension(trimmings, system.place(), matrix),
         preconditioner(system.unknowns()),
-        mass_in_cloth_order(system.nodes()) {
+        mass_in_cloth_order(system.nodes()),
+        weight(solver_options.gravity ? 1 : 0) {
     double squares = 0;
     for (int i = 0; i < system.nodes(); ++i) {
       mass_in_cloth_order[system.order()[i]] = system.mass()[i];
@@ -89,7 +90,7 @@ struct BackwardEuler::Implementation {
   Vec3 nodal_force(int node, const Vec3& v) const {
     const double m = system.mass()[node];
     Vec3 f = -air_drag_dissipation_gradient(options.air_drag, m, v);
-    if (options.gravity) f -= gravity_gradient(m);
+    if (weight > 0) f -= gravity_gradient(weight * m);
     return f;
   }
 
@@ -108,7 +109,7 @@ struct BackwardEuler::Implementation {
       return sums;
     });
     const TrimSystem& trims = system.trims();
-    trims.residual(x, v, p.h, options.air_drag, options.gravity, force, b);
+    trims.residual(x, v, p.h, options.air_drag, weight, force, b);
     for (int t = 0; t < trims.trims(); ++t) {
       for (int node : {trims.center_node(t), trims.rotation_node(t)}) {
         squares[0] += b[node].squaredNorm();
@@ -187,6 +188,7 @@ struct BackwardEuler::Implementation {
   TensionSystem tension;
   BlockJacobi preconditioner;
   std::vector<double> mass_in_cloth_order;
+  double weight;                   ///< share of the whole that pulls
   std::vector<int> unknown_place;  ///< cloth's index → solver's, and trims' nodes where they are
   double weight_norm = 0;          ///< root of the sum of squared nodal weights [N]
   ContactSystem contacts;
@@ -295,6 +297,7 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
 
 const std::vector<double>& BackwardEuler::masses() const { return implementation_->mass_in_cloth_order; }
 void BackwardEuler::set_damping(double factor) { implementation_->system.set_damping(factor); }
+void BackwardEuler::set_weight(double share) { implementation_->weight = share; }
 
 Energies BackwardEuler::energies(const State& state, const std::vector<Contact>& contacts) const {
   const Implementation& s = *implementation_;

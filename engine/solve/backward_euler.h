@@ -73,6 +73,10 @@ class BackwardEuler {
   /// From the next step on the fabrics' damping is this share of their own (powers of two come back to the same bits).
   void set_damping(double factor);
 
+  /// From the next step on weight is this share of the whole; 1 at first, or 0 without options.gravity. Forces and
+  /// energies of a state at rest (static_forces, energies_by_term) have the whole weight all the same.
+  void set_weight(double share);
+
   const std::vector<double>& masses() const;  ///< lumped, per vertex [kg]
   Energies energies(const State& state, const std::vector<Contact>& contacts) const;
   /// What each static term and gravity store at these positions; a new term of StaticSystem is in it by itself. Where

@@ -17,4 +17,12 @@ inline double relaxation_factor(double time, const SolverOptions& options) {
   return options.relaxation_stiffness + (1 - options.relaxation_stiffness) * done;
 }
 
+/// Share of the weight that pulls at a time: from 0 linearly to 1 at the end of weight_ramp_time, then 1. What is
+/// loaded slowly follows its equilibria and keeps few folds; what is dropped whole throws up the many that grow
+/// fastest.
+inline double weight_share(double time, const SolverOptions& options) {
+  if (!options.gravity) return 0;
+  return time < options.weight_ramp_time ? std::max(0.0, time / options.weight_ramp_time) : 1;
+}
+
 }  // namespace toile

@@ -53,7 +53,8 @@ void stop(State& state) {
 }  // namespace
 
 double estimated_progress(const SimulationState& state, const SolverOptions& options) {
-  return std::max(state.time / (state.time + 1.0), state.time / options.simulated_time_limit);
+  return std::max(state.time / (state.time + 1.0 + options.weight_ramp_time),
+                  state.time / options.simulated_time_limit);
 }
 
 TouchingOptions touching_options(const SimulationScene& scene) {
@@ -80,7 +81,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   for (const RigidTrim& trim : scene.trimmings.trims) state.trims.push_back(trim.start);
   Kinematic kinematic{std::vector<char>(n, 0), clamped.x};
   for (const HeldVertex& held : held_points) kinematic.held[held.vertex] = 1;
-  const double moving_until = std::max(last_key_frame(scene.held), options.relaxation_time);
+  const double moving_until = std::max({last_key_frame(scene.held), options.relaxation_time, options.weight_ramp_time});
 
   std::vector<Contact> contacts;
   std::vector<TrimContact> trim_contacts;
@@ -103,6 +104,8 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
     const Positions v_before = state.v;
     const Positions before = state.x;
     const std::vector<RigidState> trims_before = state.trims;
+    // As it is at the step's end, like the held vertices' targets.
+    solver.set_weight(weight_share(t + h, options));
     const StepOutcome outcome =
         solver.step(state, h, relaxation_factor(t, options), contacts, kinematic, step_times, &trim_contacts);
     result.newton_iterations += outcome.newton_iterations;

@@ -104,13 +104,13 @@ void TrimSystem::add_forces_and_matrix(const Positions& x, const Positions& v, c
   }
 }
 
-void TrimSystem::residual(const Positions& x, const Positions& v, double h, double air_drag, bool gravity,
+void TrimSystem::residual(const Positions& x, const Positions& v, double h, double air_drag, double weight,
                           const Positions& force, Positions& b) const {
   for (int t = 0; t < trims(); ++t) {
     const RigidBody& body = bodies_[t];
     const int c = center_node(t), r = rotation_node(t);
     Vec3 pull = force[c] - air_drag_dissipation_gradient(air_drag, body.mass, v[c]);
-    if (gravity) pull -= gravity_gradient(body.mass);
+    if (weight > 0) pull -= gravity_gradient(weight * body.mass);
     b[c] = body.mass * (start_[t].velocity - v[c]) + h * pull;
     const double gyration = body.gyration();
     const Vec3 spin = world_inertia(body, orientation(t, x)) * v[r] / gyration;  // I ω

@@ -36,9 +36,10 @@ class TrimSystem {
   void add_forces_and_matrix(const Positions& x, const Positions& v, const SystemWeights& weights, double air_drag,
                              Positions& force, BlockMatrix& matrix) const;
   /// The rest of the momentum balance of the trims' nodes, to be called with the forces summed up:
-  ///   b = M (v₀ − v) + h (force + weight − drag), with the rotation's as above, over ρ.
-  void residual(const Positions& x, const Positions& v, double h, double air_drag, bool gravity, const Positions& force,
-                Positions& b) const;
+  ///   b = M (v₀ − v) + h (force + weight − drag), with the rotation's as above, over ρ; `weight` is a share of the
+  ///   whole.
+  void residual(const Positions& x, const Positions& v, double h, double air_drag, double weight,
+                const Positions& force, Positions& b) const;
 
   double energy(const Positions& x) const;  ///< of the springs [J]
   Mat3 orientation(int trim, const Positions& x) const;

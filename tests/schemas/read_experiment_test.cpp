@@ -15,11 +15,13 @@ Experiment experiment_from(const char* text) { return read_experiment(parse_json
 
 TEST(ReadExperiment, KeysBecomeMetresAndDirections) {
   const auto disc = std::get<CusickDrape>(experiment_from(
-      R"({"experiment": {"kind": "cusick_drape", "fabric": "denim", "disc_mm": 360, "support_mm": 200, "starts": 2}})"));
+      R"({"experiment": {"kind": "cusick_drape", "fabric": "denim", "disc_mm": 360, "support_mm": 200, "starts": 2,
+                        "lowering_s": 3}})"));
   EXPECT_EQ(disc.fabric.name, "denim");
   EXPECT_DOUBLE_EQ(disc.disc_diameter, 0.36);
   EXPECT_DOUBLE_EQ(disc.support_diameter, 0.2);
   EXPECT_EQ(disc.starts, 2);
+  EXPECT_DOUBLE_EQ(disc.lowering_time, 3);
   const auto strip = std::get<Cantilever>(experiment_from(
       R"({"experiment": {"kind": "cantilever", "fabric": "denim", "direction": "bias", "overhang_mm": 80}})"));
   EXPECT_EQ(strip.direction, Direction::bias);
@@ -41,6 +43,7 @@ TEST(ReadExperiment, SchemasDefaultsAreTheStructs) {
   EXPECT_DOUBLE_EQ(keys["disc_mm"]["default"].get<double>(), 1e3 * disc.disc_diameter);
   EXPECT_DOUBLE_EQ(keys["support_mm"]["default"].get<double>(), 1e3 * disc.support_diameter);
   EXPECT_EQ(keys["starts"]["default"], disc.starts);
+  EXPECT_DOUBLE_EQ(keys["lowering_s"]["default"].get<double>(), disc.lowering_time);
   std::vector<double> percent;
   for (const double strain : UniaxialTest{}.strains) percent.push_back(100 * strain);
   EXPECT_THAT(keys["strains_percent"]["default"].get<std::vector<double>>(),
@@ -48,7 +51,7 @@ TEST(ReadExperiment, SchemasDefaultsAreTheStructs) {
 }
 
 TEST(ReadExperiment, EveryResultMatchesItsSchema) {
-  const CusickReport cusick{0.3, 7.5, {{4, true, 0.3, 7, -1e-3, {1e-3, 2e-3}}}};
+  const CusickReport cusick{0.3, 7.5, {{true, 0.3, 7, -1e-3, {1e-3, 2e-3}}}};
   const UniaxialReport uniaxial{{{0.01, 5}, {0.02, 11}}, 0.1};
   for (const ExperimentReport& report : std::vector<ExperimentReport>{
            cusick, CantileverReport{0.04, 0.7, 0.02}, CantileverReport{0.04, 0.5, {}}, uniaxial, PearLoopReport{0.06}})

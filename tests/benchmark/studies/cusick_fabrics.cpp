@@ -25,8 +25,8 @@ double coefficient_percent(const char* what, const Suiting& suiting, const Fabri
   std::printf("%s %-22s %5.1f  (real %.1f, CAD %.1f)  nodes %.1f  %zu vertices\n", suiting.id.c_str(), what, percent,
               suiting.real, suiting.cad, result.report.nodes, result.drape.cloth.x.size());
   for (const CusickStart& start : result.report.starts)
-    std::printf("     start %d: %5.1f  %2d nodes  %.3f mJ%s%s\n", start.start_nodes, 100 * start.coefficient,
-                start.nodes, 1e3 * start.energy, start.at_rest ? "" : "  not at rest",
+    std::printf("     %5.1f  %2d nodes  %.3f mJ%s%s\n", 100 * start.coefficient, start.nodes, 1e3 * start.energy,
+                start.at_rest ? "" : "  not at rest",
                 start.nodes < 3 || start.nodes > 8 ? "  (outside the 3 to 8 nodes of real cloth)" : "");
   std::fflush(stdout);
   return percent;

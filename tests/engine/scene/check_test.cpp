@@ -258,6 +258,8 @@ TEST(CheckScene, NamesWhatIsWrongWithFabricsBodiesPinsAndSolver) {
       {"solver_value /solver/max_time_step_s", [](Scene& s) { s.solver.max_time_step = kNan; }},
       {"solver_value /solver/line_search_iterations", [](Scene& s) { s.solver.line_search_iterations = 0; }},
       {"solver_value /solver/splitting_factor", [](Scene& s) { s.solver.splitting_factor = 1; }},
+      {"solver_value /solver/weight_ramp_s",
+       [](Scene& s) { s.solver.weight_ramp_time = s.solver.simulated_time_limit; }},
   };
   for (const Case& c : cases) {
     Scene scene = good_scene();

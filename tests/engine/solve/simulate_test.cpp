@@ -104,6 +104,19 @@ TEST(Simulate, WithoutEarlyStopItRunsToTheLimitAndSaysThatItIsAtRest) {
   EXPECT_GE(result.time, 1.8 - 1e-9);
 }
 
+TEST(Simulate, WeightThatGrowsLinearlyFallsByTheCubeOfTime) {
+  OnBall scene;
+  SolverOptions& options = scene.simulated.options;
+  scene.simulated.body = nullptr;
+  options.relaxation_time = options.air_drag = 0;
+  options.weight_ramp_time = options.simulated_time_limit = 0.4;
+  options.max_time_step = 5e-4;
+  const Positions before = scene.cloth.x;
+  const Simulation result = simulate(scene.cloth, scene.simulated, kGoOn);
+  const double t = result.time, fall = kGravity * std::pow(t, 3) / (6 * options.weight_ramp_time);
+  for (std::size_t v = 0; v < before.size(); ++v) EXPECT_NEAR(before[v].y() - scene.cloth.x[v].y(), fall, 0.01 * fall);
+}
+
 TEST(Simulate, ATimeLimitInMidFallIsToldAsSuch) {
   OnBall scene;
   scene.simulated.options.simulated_time_limit = 0.15;
