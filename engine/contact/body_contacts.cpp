@@ -1,6 +1,6 @@
 #include "engine/contact/body_contacts.h"
 
-#include <tbb/parallel_for.h>
+#include "engine/parallel/parallel_for.h"
 
 #include <algorithm>
 #include <initializer_list>
@@ -11,6 +11,7 @@ namespace {
 constexpr std::uint64_t kVertexKey = std::uint64_t{1} << 62, kEdgeKey = std::uint64_t{1} << 63,
                         kTriangleKey = kVertexKey + kEdgeKey, kSide = std::uint64_t{1} << 40;
 
+constexpr int kGrain = 256;     // features a task
 constexpr double kApart = 0.8;  // cosine of the angle between surfaces that are two
 constexpr double kSame = 1e-4;  // [m] what a grid of the field leaves uncertain
 
@@ -46,8 +47,8 @@ std::vector<Contact> body_contacts(const CollisionMesh& mesh, const BodyField& b
             triangles = static_cast<int>(mesh.triangles.size());
   const auto offset = [&](int v) { return offset_from_body(mesh, options, v); };
   std::vector<Touch> at_vertex(n);
-  tbb::parallel_for(tbb::blocked_range<int>(0, n, 256), [&](const tbb::blocked_range<int>& range) {
-    for (int v = range.begin(); v < range.end(); ++v) at_vertex[v] = touch(body, x[v], offset(v));
+  parallel_ranges(n, kGrain, [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) at_vertex[v] = touch(body, x[v], offset(v));
   });
   std::vector<Touch> at_edge(edges), at_triangle(triangles);
   const auto half_offset = [&](std::initializer_list<int> nodes) {
@@ -60,8 +61,8 @@ std::vector<Contact> body_contacts(const CollisionMesh& mesh, const BodyField& b
   };
   // The field is 1-Lipschitz: most features are too far for a look inside them.
   std::vector<char> near_edge(edges, 0), near_triangle(triangles, 0);
-  tbb::parallel_for(tbb::blocked_range<int>(0, edges, 256), [&](const tbb::blocked_range<int>& range) {
-    for (int e = range.begin(); e < range.end(); ++e) {
+  parallel_ranges(edges, kGrain, [&](int begin, int end) {
+    for (int e = begin; e < end; ++e) {
       const auto [a, b] = mesh.edges[e];
       const double length = (x[a] - x[b]).norm(), half = half_offset({a, b});
       if (std::min(at_vertex[a].distance(), at_vertex[b].distance()) > half + 0.5 * length) continue;
@@ -69,8 +70,8 @@ std::vector<Contact> body_contacts(const CollisionMesh& mesh, const BodyField& b
       near_edge[e] = at_edge[e].distance() < half;
     }
   });
-  tbb::parallel_for(tbb::blocked_range<int>(0, triangles, 256), [&](const tbb::blocked_range<int>& range) {
-    for (int t = range.begin(); t < range.end(); ++t) {
+  parallel_ranges(triangles, kGrain, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
       const Triangle& tri = mesh.triangles[t];
       const Vec3 middle = (x[tri[0]] + x[tri[1]] + x[tri[2]]) / 3;
       const double half = half_offset({tri[0], tri[1], tri[2]});

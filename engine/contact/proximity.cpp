@@ -1,8 +1,7 @@
 #include "engine/contact/proximity.h"
 
 #include "engine/geometry/distance.h"
-
-#include <tbb/parallel_for.h>
+#include "engine/parallel/parallel_for.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,8 +118,8 @@ Proximity::Measured Proximity::measure(int pair, const Positions& x) const {
 void Proximity::rebuild_list(const Positions& x) {
   const int triangles = static_cast<int>(mesh_.triangles.size()), edges = static_cast<int>(mesh_.edges.size());
   std::vector<Box> triangle_boxes(triangles), edge_boxes(edges);
-  tbb::parallel_for(0, triangles, [&](int t) { triangle_boxes[t] = box_of(x, mesh_.triangles[t].data(), 3, 0); });
-  tbb::parallel_for(0, edges, [&](int e) { edge_boxes[e] = box_of(x, mesh_.edges[e].data(), 2, 0); });
+  parallel_for_each(triangles, kBlock, [&](int t) { triangle_boxes[t] = box_of(x, mesh_.triangles[t].data(), 3, 0); });
+  parallel_for_each(edges, kBlock, [&](int e) { edge_boxes[e] = box_of(x, mesh_.edges[e].data(), 2, 0); });
   if (listed_at_.empty()) {
     triangle_bvh_ = Bvh(triangle_boxes);
     edge_bvh_ = Bvh(edge_boxes);
@@ -133,7 +132,7 @@ void Proximity::rebuild_list(const Positions& x) {
   const auto collect = [&](int count, auto&& pairs_of) {
     const int blocks = (count + kBlock - 1) / kBlock;
     std::vector<std::vector<Pair>> found(blocks);
-    tbb::parallel_for(0, blocks, [&](int block) {
+    parallel_for_each(blocks, 1, [&](int block) {
       const int end = std::min(count, (block + 1) * kBlock);
       for (int i = block * kBlock; i < end; ++i) pairs_of(i, found[block]);
     });
@@ -176,8 +175,8 @@ void Proximity::update(const Positions& x) {
 
   const int vt = static_cast<int>(vertex_triangle_.size()), total = vt + static_cast<int>(edge_edge_.size());
   std::vector<Measured> measured(total);
-  tbb::parallel_for(tbb::blocked_range<int>(0, total, kBlock), [&](const tbb::blocked_range<int>& range) {
-    for (int i = range.begin(); i < range.end(); ++i) {
+  parallel_ranges(total, kBlock, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
       measured[i] = measure(i, x);
       Contact& c = measured[i].contact;
       const std::span<const int> nodes(c.nodes), first = nodes.first(measured[i].first_side),
@@ -250,28 +249,27 @@ long Proximity::limit_moves(const Positions& x, Positions& to) const {
   for (const HalfSpace& limit : found) half_spaces[next[limit.vertex]++] = limit;
 
   std::vector<char> shortened(x.size(), 0);
-  tbb::parallel_for(
-      tbb::blocked_range<int>(0, static_cast<int>(x.size()), kBlock), [&](const tbb::blocked_range<int>& range) {
-        for (int v = range.begin(); v < range.end(); ++v) {
-          if (!beyond[v]) continue;
-          const std::span<const HalfSpace> limits(half_spaces.data() + first[v], half_spaces.data() + first[v + 1]);
-          Vec3 move = to[v] - x[v];
-          const double length = move.norm();
-          if (length > free) move *= free / length;
-          for (int sweep = 0; sweep < kSweeps; ++sweep)
-            for (const HalfSpace& limit : limits) {
-              const double over = -limit.slack - limit.inward.dot(move);
-              if (over > 0) move += over * limit.inward;
-            }
-          double share = stuck[v] ? 0 : 1;
-          for (const HalfSpace& limit : limits) {
-            const double towards = -limit.inward.dot(move);
-            if (towards > limit.slack) share = std::min(share, limit.slack / towards);
-          }
-          shortened[v] = share < 1 || move != to[v] - x[v];
-          if (shortened[v]) to[v] = x[v] + share * move;
+  parallel_ranges(static_cast<int>(x.size()), kBlock, [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      if (!beyond[v]) continue;
+      const std::span<const HalfSpace> limits(half_spaces.data() + first[v], half_spaces.data() + first[v + 1]);
+      Vec3 move = to[v] - x[v];
+      const double length = move.norm();
+      if (length > free) move *= free / length;
+      for (int sweep = 0; sweep < kSweeps; ++sweep)
+        for (const HalfSpace& limit : limits) {
+          const double over = -limit.slack - limit.inward.dot(move);
+          if (over > 0) move += over * limit.inward;
         }
-      });
+      double share = stuck[v] ? 0 : 1;
+      for (const HalfSpace& limit : limits) {
+        const double towards = -limit.inward.dot(move);
+        if (towards > limit.slack) share = std::min(share, limit.slack / towards);
+      }
+      shortened[v] = share < 1 || move != to[v] - x[v];
+      if (shortened[v]) to[v] = x[v] + share * move;
+    }
+  });
   return std::count(shortened.begin(), shortened.end(), 1);
 }
 

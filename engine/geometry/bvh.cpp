@@ -1,6 +1,7 @@
 #include "engine/geometry/bvh.h"
 
-#include <tbb/parallel_for.h>
+#include "engine/parallel/parallel_for.h"
+
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -105,8 +106,8 @@ void Bvh::refit(std::span<const Box> boxes) {
 }
 
 void Bvh::fit_leaves(std::span<const Box> boxes) {
-  tbb::parallel_for(tbb::blocked_range<int>(0, static_cast<int>(nodes_.size()), 1024), [&](const auto& range) {
-    for (int n = range.begin(); n != range.end(); ++n) {
+  parallel_ranges(static_cast<int>(nodes_.size()), 1024, [&](int begin, int end) {
+    for (int n = begin; n < end; ++n) {
       Node& node = nodes_[n];
       if (node.first < 0) continue;
       const int last = leaf_end(node.first);

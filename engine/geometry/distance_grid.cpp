@@ -2,8 +2,7 @@
 
 #include "engine/geometry/bvh.h"
 #include "engine/geometry/distance.h"
-
-#include <tbb/parallel_for.h>
+#include "engine/parallel/parallel_for.h"
 
 #include <algorithm>
 #include <cassert>
@@ -126,9 +125,8 @@ DistanceGrid::DistanceGrid(const SoupSolid& solid, const GridSettings& settings)
   fill_coarse(bvh, solid);
   std::vector<BandLeaf> leaves =
       narrow_band(solid.vertices, solid.triangles, coarse_.origin, settings.fine_spacing, kBand);
-  tbb::parallel_for(size_t(0), leaves.size(), [&](size_t n) {
-    make_exact(leaves[n], coarse_.origin, settings_.fine_spacing, Walker(bvh, solid));
-  });
+  parallel_for_each(static_cast<int>(leaves.size()), 1,
+                    [&](int n) { make_exact(leaves[n], coarse_.origin, settings_.fine_spacing, Walker(bvh, solid)); });
   fill_bricks(leaves);
 }
 
@@ -136,7 +134,7 @@ void DistanceGrid::fill_coarse(const Bvh& bvh, const SoupSolid& solid) {
   coarse_values_.resize(coarse_.size());
   for (int stride = kFirstStride; stride >= 1; stride /= 2) {
     const auto is_known = [&](int i, int j, int k) { return stride < kFirstStride && (i | j | k) % (2 * stride) == 0; };
-    tbb::parallel_for(0, (coarse_.nodes[2] - 1) / stride + 1, [&](int layer) {
+    parallel_for_each((coarse_.nodes[2] - 1) / stride + 1, 1, [&](int layer) {
       Walker walker(bvh, solid);
       const int k = stride * layer, columns = (coarse_.nodes[0] - 1) / stride + 1;
       for (int j = 0; j < coarse_.nodes[1]; j += stride) {
@@ -177,8 +175,8 @@ void DistanceGrid::fill_bricks(const std::vector<BandLeaf>& leaves) {
   }
   constexpr int kNodes = kBrickNodes * kBrickNodes * kBrickNodes;
   brick_values_.resize(leaves.size() * kNodes);
-  tbb::parallel_for(size_t(0), leaves.size(), [&](size_t n) {
-    float* value = &brick_values_[n * kNodes];
+  parallel_for_each(static_cast<int>(leaves.size()), 1, [&](int n) {
+    float* value = &brick_values_[static_cast<std::size_t>(n) * kNodes];
     const auto& first = leaves[n].first;
     for (int k = first[2] - 1; k < first[2] - 1 + kBrickNodes; ++k) {
       for (int j = first[1] - 1; j < first[1] - 1 + kBrickNodes; ++j) {

@@ -2,10 +2,10 @@
 
 #include "engine/geometry/dress_form_shape.h"
 #include "engine/geometry/openvdb_templates.h"
+#include "engine/parallel/parallel_for.h"
 
 #include <openvdb/tools/SignedFloodFill.h>
 #include <openvdb/tools/VolumeToMesh.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +92,7 @@ openvdb::FloatGrid::Ptr level_set(const DressFormShape& shape, const DressFormBo
   std::vector<float> layer(static_cast<size_t>(rows) * columns);
   auto accessor = grid->getAccessor();
   for (int j = bottom; j <= top; ++j) {
-    tbb::parallel_for(0, rows, [&](int k) {
+    parallel_for_each(rows, 1, [&](int k) {
       for (int i = 0; i < columns; ++i) {
         layer[k * columns + i] = static_cast<float>(shape(voxel * Vec3(i - half_x, j, k - half_z)));
       }
@@ -138,7 +138,7 @@ void even_out(TriangleMesh& mesh, const DressFormShape& shape) {
         count[t[k]] += 2;
       }
     }
-    tbb::parallel_for(size_t(0), mesh.vertices.size(), [&](size_t v) {
+    parallel_for_each(static_cast<int>(mesh.vertices.size()), 64, [&](int v) {
       Vec3 x = 0.5 * mesh.vertices[v] + 0.5 * sum[v] / count[v];
       for (int newton = 0; newton < 3; ++newton) {
         constexpr double d = 1e-4;

@@ -1,9 +1,9 @@
 #include "engine/geometry/narrow_band.h"
 
 #include "engine/geometry/openvdb_templates.h"
+#include "engine/parallel/parallel_for.h"
 
 #include <openvdb/tools/MeshToVolume.h>
-#include <tbb/parallel_for.h>
 
 namespace toile {
 
@@ -43,7 +43,7 @@ std::vector<BandLeaf> narrow_band(const Positions& vertices, const std::vector<T
     if (!node->isEmpty()) nodes.push_back(&*node);
   }
   std::vector<BandLeaf> leaves(nodes.size());
-  tbb::parallel_for(size_t(0), nodes.size(), [&](size_t n) {
+  parallel_for_each(static_cast<int>(nodes.size()), 16, [&](int n) {
     const openvdb::Coord first = nodes[n]->origin();
     const auto* triangle = nearest->tree().probeConstLeaf(first);
     leaves[n].first = {first.x(), first.y(), first.z()};

@@ -4,9 +4,8 @@
 #include "engine/geometry/distance.h"
 #include "engine/geometry/level_surface.h"
 #include "engine/geometry/winding_number.h"
+#include "engine/parallel/parallel_for.h"
 #include "engine/scene/problem.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -133,7 +132,7 @@ void append(SoupSolid& solid, const Vec3& a, const Vec3& b, const Vec3& c) {
 void keep_separating(const TriangleMesh& mesh, const WindingNumber& winding, double beside, double spacing,
                      SoupSolid& solid) {
   std::vector<std::vector<std::array<Vec3, 3>>> pieces(mesh.triangles.size());
-  tbb::parallel_for(size_t(0), mesh.triangles.size(), [&](size_t t) {
+  parallel_for_each(static_cast<int>(mesh.triangles.size()), 16, [&](int t) {
     const auto& [a, b, c] = mesh.triangles[t];
     const auto separates = [&](const Vec3& point, const Vec3& normal) {
       // The winding number behind a triangle is that in front of it plus one.
@@ -161,7 +160,7 @@ void close_hole(const Hole& hole, const WindingNumber& winding, double spacing, 
   lattice.origin = box.lower;
   for (int k = 0; k < 3; ++k) lattice.nodes[k] = static_cast<int>(extent[k] / lattice.spacing) + 2;
   std::vector<double> level(lattice.size());
-  tbb::parallel_for(0, lattice.nodes[2], [&](int k) {
+  parallel_for_each(lattice.nodes[2], 1, [&](int k) {
     for (int j = 0; j < lattice.nodes[1]; ++j) {
       for (int i = 0; i < lattice.nodes[0]; ++i) {
         level[lattice.index(i, j, k)] = 0.5 - winding(lattice.point(i, j, k));

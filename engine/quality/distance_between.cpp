@@ -2,8 +2,7 @@
 
 #include "engine/geometry/bvh.h"
 #include "engine/geometry/distance.h"
-
-#include <tbb/parallel_for.h>
+#include "engine/parallel/parallel_for.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +34,7 @@ DrapeDistance one_way(const std::vector<Sample>& from, const Positions& x, const
   for (const auto& [a, b, c] : triangles) boxes.push_back(triangle_box(x[a], x[b], x[c]));
   const Bvh bvh(boxes);
   std::vector<double> distance(from.size());
-  tbb::parallel_for(size_t(0), from.size(), [&](size_t i) {
+  parallel_for_each(static_cast<int>(from.size()), 256, [&](int i) {
     const auto squared = [&](int t) {
       const auto& [a, b, c] = triangles[t];
       return point_triangle(from[i].point, x[a], x[b], x[c]).squared_distance;

@@ -1,8 +1,7 @@
 #include "engine/solve/position_based.h"
 
 #include "engine/geometry/mean.h"
-
-#include <tbb/parallel_for.h>
+#include "engine/parallel/parallel_for.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,9 +118,8 @@ double PositionBased::step(Positions& x, const PositionBasedOptions& options) {
     if (length > limit) move *= limit / length;
     x[v] += move;
   }
-  tbb::parallel_for(tbb::blocked_range<int>(0, n, 256), [&](const tbb::blocked_range<int>& range) {
-    for (int v = range.begin(); v < range.end(); ++v)
-      if (body_[v]) body_samples_[v] = body_[v]->sample(start[v]);
+  parallel_for_each(n, 256, [&](int v) {
+    if (body_[v]) body_samples_[v] = body_[v]->sample(start[v]);
   });
   std::vector<double> allowed(meeting_.size(), 0.0);  // distance from the mean
   std::vector<char> cutting(meeting_.size(), 0);
