@@ -184,8 +184,8 @@ class ObjReader {
 
 void append(std::string& text, double value) {
   std::array<char, 32> digits;
-  const auto end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 9).ptr;
+  // Every bit: a stiff cloth's forces hang on the tenth digit (toile check).
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
   text += ' ';
   text.append(digits.data(), end);
 }

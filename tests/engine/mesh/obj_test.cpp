@@ -130,7 +130,7 @@ TEST(ReadObj, SurvivesDamagedFiles) {
 
 TEST(WriteObj, RoundTrip) {
   TriangleMesh mesh;
-  mesh.vertices = {{0.123456789, -1e-7, 12.5}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.vertices = {{0.1234567890123456, -1.0 / 3e7, 12.5}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   mesh.corner_uv = {{Vec2(0, 0), Vec2(1, 0), Vec2(1, 1)}, {Vec2(5, 5), Vec2(1, 1), Vec2(0, 1)}};
   mesh.triangle_group = {1, 0};
