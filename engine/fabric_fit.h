@@ -46,7 +46,7 @@ struct FabricFit {
   Fabric fabric;
   StretchTest stretch;      ///< readings of strips with free sides that make the fabric's stress curves
   std::string status;       ///< "fitted" or "not_fitted"
-  std::string stop_reason;  ///< "fitted", "misfit_too_large", or that of the part that failed
+  std::string stop_reason;  ///< "fitted", "misfit_too_large", "no_such_fabric", or that of the part that failed
   std::vector<MisfitRow> misfit;
   double rms = 0;                   ///< of fitted over measured minus one
   double rms_over_uncertainty = 0;  ///< of the same over each reading's uncertainty

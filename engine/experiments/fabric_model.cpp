@@ -181,6 +181,10 @@ FabricModel with_bending(const FabricModel& model, const std::vector<FitParamete
   for (std::size_t k = 0; k < parameters.size(); ++k)
     along(bending, parameters[k].direction) = values[static_cast<Eigen::Index>(k)];
   if (bias_is_mean(parameters)) bending.bias = 0.5 * (bending.warp + bending.weft);
+  const bool measured = std::any_of(parameters.begin(), parameters.end(),
+                                    [](const FitParameter& p) { return p.direction == Direction::bias; });
+  // The base's bias may be that of a limper cloth than what was measured can be.
+  if (!measured) bending.bias = std::max(bending.bias, least_bias_bending(bending.warp, bending.weft));
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include "engine/experiments/fit_part.h"
 #include "engine/parallel/thread_limit.h"
+#include "engine/scene/check_parts.h"
 
 #include <algorithm>
 #include <chrono>
@@ -188,6 +189,12 @@ FabricFit fit_fabric(const FabricMeasurements& m, int threads, Monitor& monitor)
   fit.fabric = model.fabric;
   fit.stretch = model.stretch;
   measure_misfit(fit);
+  check_fabric(fit.fabric, "", problems);
+  for (const Problem& problem : problems) fit.warnings.push_back("no_such_fabric: " + problem.detail);
+  if (!problems.empty()) {
+    fit.status = "not_fitted";
+    fit.stop_reason = "no_such_fabric";
+  }
   say_what_is_kept(m, fit);
   warn_of_undetermined(fit);
   fit.time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();

@@ -3,6 +3,7 @@
 
 #include "engine/scene/stress_curve.h"
 
+#include <cmath>
 #include <string>
 
 namespace toile {
@@ -15,6 +16,13 @@ struct Directional {
   double bias = 0;
   bool operator==(const Directional&) const = default;
 };
+
+/// The least D on the bias that a sheet can have whose D in warp and weft are these, (√warp − √weft)² / 4: with less,
+/// some saddle would give energy back.
+inline double least_bias_bending(double warp, double weft) {
+  const double difference = std::sqrt(warp) - std::sqrt(weft);
+  return 0.25 * difference * difference;
+}
 
 /// Anisotropic sheet. Membrane energy density (St. Venant–Kirchhoff, per rest area):
 ///   W = ½ C_weft E_uu² + ½ C_warp E_vv² + C_poisson E_uu E_vv + 2 G E_uv²,   E = ½ (FᵀF − I).

@@ -218,6 +218,17 @@ TEST(FitFabric, TwoTestsThatContradictEachOtherAreNotFitted) {
   EXPECT_EQ(fit.stop_reason, "misfit_too_large");
 }
 
+TEST(FitFabric, BendingThatNoSheetCanHaveIsNotFitted) {
+  Silent monitor;
+  FabricMeasurements m = with_base();
+  m.bending[at(Direction::warp)] = MeasuredStiffness{1e-4};
+  m.bending[at(Direction::weft)] = MeasuredStiffness{4e-6};
+  m.bending[at(Direction::bias)] = MeasuredStiffness{5e-6};
+  const FabricFit fit = fit_fabric(m, 0, monitor);
+  EXPECT_EQ(fit.status, "not_fitted");
+  EXPECT_EQ(fit.stop_reason, "no_such_fabric");
+}
+
 TEST(FitFabric, DoesNotDependOnTheNumberOfThreads) {
   Silent monitor;
   FabricMeasurements m = with_base();

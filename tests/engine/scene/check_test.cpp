@@ -258,6 +258,10 @@ TEST(CheckScene, NamesWhatIsWrongWithFabricsBodiesPinsAndSolver) {
       {"solver_value /solver/max_time_step_s", [](Scene& s) { s.solver.max_time_step = kNan; }},
       {"solver_value /solver/line_search_iterations", [](Scene& s) { s.solver.line_search_iterations = 0; }},
       {"solver_value /solver/splitting_factor", [](Scene& s) { s.solver.splitting_factor = 1; }},
+      {"fabric_value /garments/0/fabric",
+       [](Scene& s) {
+         s.garments[0].fabric.bending_stiffness = {1e-4, 4e-6, 5e-6};
+       }},
       {"solver_value /solver/weight_ramp_s",
        [](Scene& s) { s.solver.weight_ramp_time = s.solver.simulated_time_limit; }},
   };
