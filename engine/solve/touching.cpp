@@ -13,6 +13,15 @@ CollisionMesh mesh_of(const Cloth& cloth, const TouchingOptions& options) {
   return mesh;
 }
 
+/// A common translation brings no two features together: a sheet may fall as fast as it will.
+bool moves_as_one(const Positions& from, const Positions& to, const std::vector<double>& bounds) {
+  Vec3 common = Vec3::Zero();
+  for (std::size_t v = 0; v < from.size(); ++v) common += (to[v] - from[v]) / static_cast<double>(from.size());
+  for (std::size_t v = 0; v < from.size(); ++v)
+    if ((to[v] - from[v] - common).norm() > bounds[v]) return false;
+  return true;
+}
+
 }  // namespace
 
 Touching::Touching(const Cloth& cloth, const TouchingOptions& options)
@@ -38,8 +47,10 @@ std::vector<Contact> Touching::detect(const Positions& points) {
 }
 
 long Touching::limit(const Positions& from, Positions& to) const {
+  const Positions x = vertices_of(from);
   Positions moved = vertices_of(to);
-  const long limited = proximity_.limit_moves(vertices_of(from), moved);
+  if (moves_as_one(x, moved, proximity_.displacement_bounds())) return 0;
+  const long limited = proximity_.limit_moves(x, moved);
   std::copy(moved.begin(), moved.end(), to.begin());
   return limited;
 }

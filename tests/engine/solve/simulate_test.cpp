@@ -117,6 +117,19 @@ TEST(Simulate, WeightThatGrowsLinearlyFallsByTheCubeOfTime) {
   for (std::size_t v = 0; v < before.size(); ++v) EXPECT_NEAR(before[v].y() - scene.cloth.x[v].y(), fall, 0.01 * fall);
 }
 
+TEST(Simulate, AWholeSheetFallsAsFastAsItWill) {
+  OnBall scene;
+  SolverOptions& options = scene.simulated.options;
+  scene.simulated.body = nullptr;
+  options.relaxation_time = options.air_drag = 0;
+  options.simulated_time_limit = 0.6;  // 5.9 mm a step at the end
+  const Positions before = scene.cloth.x;
+  const Simulation result = simulate(scene.cloth, scene.simulated, kGoOn);
+  const double fall = 0.5 * kGravity * std::pow(result.time, 2);
+  for (std::size_t v = 0; v < before.size(); ++v) EXPECT_NEAR(before[v].y() - scene.cloth.x[v].y(), fall, 0.005 * fall);
+  EXPECT_EQ(result.limited_vertices, 0);
+}
+
 TEST(Simulate, ATimeLimitInMidFallIsToldAsSuch) {
   OnBall scene;
   scene.simulated.options.simulated_time_limit = 0.15;
