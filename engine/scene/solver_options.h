@@ -7,9 +7,10 @@ struct SolverOptions {
   double max_time_step = 1e-3;        ///< h_max [s]
   double simulated_time_limit = 6.0;  ///< [s]; a drape that is not at rest then has not converged
   double newton_tolerance = 1e-3;     ///< tau_n: norm of the momentum residual [kg·m/s]
-  /// Newton goes on, up to newton_iterations, while the residual exceeds this fraction of ‖M v‖ + h ‖M g‖; 0: never, as
-  /// the seed. An absolute tolerance alone lets a light or stiff mesh gain energy step by step.
-  double newton_momentum_fraction = 0.1;
+  /// Newton goes on, up to newton_iterations, while the residual exceeds this fraction of h ‖M g‖ + min(‖M v‖, h ‖M
+  /// g‖); 0: never, as the seed. An absolute tolerance alone lets a light or stiff mesh gain energy step by step, and
+  /// what slides disregard its forces.
+  double newton_momentum_fraction = 0.05;
   double cg_tolerance = 1e-2;           ///< tau_cg: relative residual
   int newton_iterations = 5;            ///< I_n
   int line_search_iterations = 5;       ///< I_ls, lengths tried: 1, 1/2, 1/4, …

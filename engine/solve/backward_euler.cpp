@@ -275,7 +275,8 @@ StepOutcome BackwardEuler::step(State& state, double h, double stiffness_factor,
     // Accepted once, further iterations can only lower the residual.
     if (!outcome.accepted) outcome.accepted = diverged ? r_n < at_rest : r_n < s.options.newton_tolerance;
     const double fraction = s.options.newton_momentum_fraction;
-    const bool accurate = fraction <= 0 || r_n < fraction * (momentum + h * s.weight_norm);
+    const double impulse = h * s.weight_norm;  // momentum alone would let what is fast ignore its forces
+    const bool accurate = fraction <= 0 || r_n < fraction * (std::min(momentum, impulse) + impulse);
     if (diverged || (outcome.accepted && accurate)) break;
   }
   s.last_acceleration.clear();
