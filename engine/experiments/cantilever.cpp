@@ -15,10 +15,24 @@ constexpr double kPeirceAngle = 41.5 * std::numbers::pi / 180;     // [rad]
 constexpr double kAngleTolerance = 0.05 * std::numbers::pi / 180;  // [rad]
 constexpr int kMostTrials = 8;
 constexpr double kShortest = 2e-3, kLongest = 1;  // overhang [m]
-constexpr double kCells = 12;                     // edges along the overhang
+constexpr double kCells = 12;                     // edges along the overhang …
+constexpr double kMostCells = 120;                // of a limp strip
+constexpr double kCellsPerLength = 6;             // … and along the bending length, where the strip curves, at least
+
+/// Peirce's (D / (ρ g))^⅓ of an elastic strip [m].
+double elastic_bending_length(const Cantilever& experiment) {
+  return std::cbrt(along(experiment.fabric.bending_stiffness, experiment.direction) /
+                   (experiment.fabric.area_density * kGravity));
+}
+
+double edge_for(const Cantilever& experiment, double overhang) {
+  if (experiment.edge_length > 0) return experiment.edge_length;
+  const double curved = elastic_bending_length(experiment);
+  return std::max(std::min(overhang / kCells, curved / kCellsPerLength), overhang / kMostCells);
+}
 
 CantileverResult bend(const Cantilever& experiment, double overhang, int threads, Monitor& monitor) {
-  const double edge = experiment.edge_length > 0 ? experiment.edge_length : overhang / kCells;
+  const double edge = edge_for(experiment, overhang);
   const FlatMesh mesh = strip_mesh(overhang, experiment.width, edge);
   const Placement level = [](const Vec2& p) { return Vec3(p.x(), 0, -p.y()); };
   Garment strip = specimen("strip", mesh, level, angle_of(experiment.direction), experiment.fabric, edge);
@@ -38,9 +52,7 @@ CantileverResult bend(const Cantilever& experiment, double overhang, int threads
 
 CantileverResult bend_over(const Cantilever& experiment, int threads, Monitor& monitor) {
   if (experiment.overhang) return bend(experiment, *experiment.overhang, threads, monitor);
-  const Fabric& fabric = experiment.fabric;
-  double overhang =
-      2 * std::cbrt(along(fabric.bending_stiffness, experiment.direction) / (fabric.area_density * kGravity));
+  double overhang = 2 * elastic_bending_length(experiment);
   double slope = 1;  // of the angle over log overhang; near 41.5° of an elastic strip
   double last_log = 0, last_angle = 0;
   CantileverResult result;

@@ -28,7 +28,7 @@ struct Cantilever {
   Direction direction = Direction::warp;
   double width = 0.025;                 ///< [m]
   std::optional<double> overhang = {};  ///< [m]; none: the one whose chord falls by 41.5°
-  double edge_length = 0;               ///< of the mesh [m]; 0: a twelfth of the overhang
+  double edge_length = 0;  ///< of the mesh [m]; 0: a twelfth of the overhang, or a sixth of (D / (ρ g))^⅓
 };
 
 /// engine/experiments/uniaxial.h; along the bias: the bias-extension test
