@@ -18,12 +18,15 @@ struct Slide {
   double acceleration = 0;  ///< downhill, of the mean, between the two times [m/s²]
 };
 
-/// A sheet of 0.1 m by 0.1 m on a plane tilted by `slope` [rad], observed from one time to another [s].
-Slide slide(double friction, double slope, double from, double to) {
-  const Vec3 normal(std::sin(slope), std::cos(slope), 0), downhill(std::cos(slope), -std::sin(slope), 0);
+/// A sheet of 0.1 m by 0.1 m on a plane tilted by `slope` [rad], observed from one time to another [s]. `heading` [rad]
+/// turns all about the vertical, `start` is the height over the offset at which the sheet begins.
+Slide slide(double friction, double slope, double from, double to, double heading = 0, double start = 0.999) {
+  const Mat3 turn = Eigen::AngleAxisd(heading, Vec3::UnitY()).toRotationMatrix();
+  const Vec3 normal = turn * Vec3(std::sin(slope), std::cos(slope), 0),
+             downhill = turn * Vec3(std::cos(slope), -std::sin(slope), 0), level = turn * Vec3::UnitZ();
   const BodyField plane = make_body_field({PlaneBody{Vec3::Zero(), normal}, friction}, 0.02);
   Cloth sheet = equilateral_sheet(5, 6, 0.02, suiting(), [&](const Vec2& uv) -> Vec3 {
-    return uv.x() * downhill + uv.y() * Vec3::UnitZ() + 0.999 * kOffset * normal;
+    return uv.x() * downhill + uv.y() * level + start * kOffset * normal;
   });
   SimulationScene scene;
   scene.body = &plane;
@@ -85,4 +88,15 @@ TEST(FrictionReference, ASteepInclineGivesTheFullAcceleration) {
   std::cout << "acceleration: reference " << expected << " m/s^2, ours " << ours << ", error "
             << 100 * (ours / expected - 1) << " %\n";
   EXPECT_NEAR(ours, expected, 0.01 * expected);
+}
+
+TEST(FrictionReference, WhatSlidesFastFeelsItsFrictionWhereverItHeads) {
+  const double slope = std::atan(0.6), friction = 0.45;
+  const double expected = kGravity * (std::sin(slope) - friction * std::cos(slope));
+  for (const double heading : {0.0, 0.7, 0.5 * std::numbers::pi}) {
+    const double ours = slide(friction, slope, 0.4, 1.0, heading, 0.95).acceleration;
+    std::cout << "heading " << heading << ", acceleration: reference " << expected << " m/s^2, ours " << ours
+              << ", error " << 100 * (ours / expected - 1) << " %\n";
+    EXPECT_NEAR(ours, expected, 0.02 * expected);
+  }
 }
