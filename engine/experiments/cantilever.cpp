@@ -15,9 +15,8 @@ constexpr double kPeirceAngle = 41.5 * std::numbers::pi / 180;     // [rad]
 constexpr double kAngleTolerance = 0.05 * std::numbers::pi / 180;  // [rad]
 constexpr int kMostTrials = 8;
 constexpr double kShortest = 2e-3, kLongest = 1;  // overhang [m]
-constexpr double kCells = 12;                     // edges along the overhang …
-constexpr double kMostCells = 120;                // of a limp strip
-constexpr double kCellsPerLength = 6;             // … and along the bending length, where the strip curves, at least
+constexpr double kCells = 12, kMostCells = 120;   // edges along the overhang
+constexpr double kCellsPerLength = 6;             // and along the bending length, where the strip curves
 
 /// Peirce's (D / (ρ g))^⅓ of an elastic strip [m].
 double elastic_bending_length(const Cantilever& experiment) {

@@ -1,5 +1,6 @@
 #pragma once
-// Initial relaxation (the first seed's §5.2): a badly stretched start gives up its energy slowly.
+// What begins gently: the initial relaxation (the first seed's §5.2), in which a badly stretched start gives up its
+// energy slowly, and the weight.
 
 #include "engine/scene/solver_options.h"
 
