@@ -12,7 +12,7 @@ namespace {
 constexpr double kAcross = 5;             // edges across a pulled strip, coarse
 constexpr double kMostAlong = 40;         // edges along a pulled strip, coarse
 constexpr double kOverhang = 8;           // edges along an overhang, coarse
-constexpr double kLoop = 20;              // edges along a loop, coarse
+constexpr double kLoop = 40;              // edges along a loop, coarse
 constexpr double kLoopSlender = 1.0 / 8;  // widest over its length
 constexpr int kAllThreads = 0;
 

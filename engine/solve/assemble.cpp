@@ -24,6 +24,7 @@ constexpr int kRisingSteps = 1000;     // at most
 constexpr double kFallen = 0.98;       // progress
 constexpr double kFootStep = 0.01;     // [m] between the heights where a foot is looked for
 constexpr double kSlitGap = 2e-4;      // [m]
+constexpr double kTouchGap = 1e-5;  // [m] the same of cloth that is not sewn, whose layers may be as near as they like
 constexpr double kPressedGap = 1e-9;   // [m] folding has closed what is nearer
 
 /// Whether a foot is over the point. What is less deep in one leaves it by the nearest way, which is upwards.
@@ -144,6 +145,8 @@ Assembly assemble(const Scene& scene, Cloth apart, const BodyFields& fields, con
     result.seam_gap_max = sewn.gap;
   } else {
     refuse_enclosed_panels(apart, field);
+    open_slits(apart, kTouchGap);
+    refuse_coincident(apart);
   }
   result.cloth = std::move(apart);
   const std::vector<int> merged = merge_seams(result.cloth);

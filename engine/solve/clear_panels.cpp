@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <set>
 
 namespace toile {
@@ -163,6 +164,22 @@ void open_slits(Cloth& apart, double gap) {
     const Vec3 arm = middle[v] / count[v] - apart.x[v];
     if (arm.norm() > gap) apart.x[v] += arm.normalized() * gap;
   }
+}
+
+void refuse_coincident(const Cloth& cloth) {
+  Proximity proximity(make_collision_mesh(cloth, 0), 0);
+  proximity.update(cloth.x);
+  const std::vector<double>& bounds = proximity.displacement_bounds();
+  const auto stuck = std::find(bounds.begin(), bounds.end(), 0.0);
+  if (stuck == bounds.end()) return;
+  const std::size_t v = stuck - bounds.begin();
+  const int garment = cloth.vertex_garment.empty() ? 0 : cloth.vertex_garment[v];
+  const Vec3 place = 1e3 * cloth.x[v];
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "Cloth lies on cloth at no distance near (%.1f, %.1f, %.1f) mm: which layer is above can't be told.",
+                place.x(), place.y(), place.z());
+  throw InputError("/garments/" + std::to_string(garment), "coincident_layers", text);
 }
 
 }  // namespace toile

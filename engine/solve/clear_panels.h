@@ -24,4 +24,8 @@ void refuse_enclosed_panels(const Cloth& apart, const std::vector<const BodyFiel
 /// features are nearer than `gap` to unrelated ones move by `gap` towards the middle of their own triangles.
 void open_slits(Cloth& apart, double gap);
 
+/// Layers in one and the same place have no side of each other to be kept on: throws InputError (`coincident_layers`)
+/// naming the garment and the place of features that are no farther apart than rounding tells.
+void refuse_coincident(const Cloth& cloth);
+
 }  // namespace toile

@@ -115,21 +115,24 @@ TEST(FitFabric, OverhangAt41Point5DegreesIsPeircesStiffness) {
 
 TEST(FitFabric, LoopOfTheElasticaGivesItsStiffness) {
   Silent monitor;
-  FabricMeasurements m = with_base();
-  m.thickness = 2e-5;
-  const double length = 0.15, weight = 300, expected = 0.2 * kGravity * std::pow(length, 3) / weight;
-  MeasuredLoop test;
-  test.length = length;
-  test.width = 0.015;
-  test.height = length * PearElastica(weight).height();
-  m.loops[at(Direction::weft)] = test;
-  const FabricFit fit = fit_fabric(m, 0, monitor);
-  EXPECT_EQ(fit.status, "fitted");
-  const ParameterEstimate& weft = fit.parts.at(0).parameters.at(0);
-  print("D weft of a loop of weight 300 D/L2 [N m]", expected, fit.fabric.bending_stiffness.weft);
-  std::printf("standard error by half a per cent of the height: %.0f %%\n", 100 * weft.standard_error);
-  EXPECT_NEAR(fit.fabric.bending_stiffness.weft, expected, 0.1 * expected);
-  EXPECT_GT(weft.standard_error, 0.1);
+  for (const double weight : {300.0, 1000.0}) {
+    FabricMeasurements m = with_base();
+    m.thickness = 2e-5;
+    const double length = 0.15, expected = 0.2 * kGravity * std::pow(length, 3) / weight;
+    MeasuredLoop test;
+    test.length = length;
+    test.width = 0.015;
+    test.height = length * PearElastica(weight).height();
+    m.loops[at(Direction::weft)] = test;
+    const FabricFit fit = fit_fabric(m, 0, monitor);
+    EXPECT_EQ(fit.status, "fitted");
+    const ParameterEstimate& weft = fit.parts.at(0).parameters.at(0);
+    std::printf("loop of weight %.0f D/L2: ", weight);
+    print("D weft [N m]", expected, fit.fabric.bending_stiffness.weft);
+    std::printf("standard error by half a per cent of the height: %.0f %%\n", 100 * weft.standard_error);
+    EXPECT_NEAR(fit.fabric.bending_stiffness.weft, expected, 0.03 * expected);
+    EXPECT_GT(weft.standard_error, 0.1);
+  }
 }
 
 TEST(FitFabric, AlmostWeightlessLoopDoesNotTellTheStiffnessAndThisIsSaid) {

@@ -138,6 +138,29 @@ TEST(OpenSlits, EdgesThatLieOnOneAnotherComeApart) {
   }
 }
 
+TEST(RefuseCoincident, LayersInOneAndTheSamePlace) {
+  Scene scene;
+  const Panel square = rectangle_panel("square", 0.1, 0.1);
+  for (const char* name : {"first", "second"})
+    scene.garments.push_back(garment_of(Pattern{{square}, {}}, 0.02, name));
+  try {
+    refuse_coincident(build_cloth(scene));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems()[0].code, "coincident_layers");
+    EXPECT_EQ(error.problems()[0].pointer, "/garments/0");
+  }
+  std::get<Pattern>(scene.garments[1].shape).panels[0].translation.z() += 1e-6;
+  EXPECT_NO_THROW(refuse_coincident(build_cloth(scene)));
+}
+
+TEST(RefuseCoincident, EdgesSideBySideThatWereOpened) {
+  Cloth cloth = slit_sheet();
+  EXPECT_THROW(refuse_coincident(cloth), InputError);
+  open_slits(cloth, 1e-5);
+  EXPECT_NO_THROW(refuse_coincident(cloth));
+}
+
 TEST(OpenSlits, AFlatSheetStaysAsItIs) {
   Cloth cloth = equilateral_sheet(6, 6, 0.02, suiting());
   const Positions before = cloth.x;
