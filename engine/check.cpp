@@ -98,7 +98,7 @@ Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& o
         "trims");
   const std::vector<double> contact_distance = measure_equilibrium(matched.cloth, at_start.x, still, options, report);
   measure_geometry(matched.cloth, still.body, report);
-  add_warnings(matched.cloth, contact_distance, report);
+  add_warnings(matched.cloth, contact_distance, scene.solver.contact_distance, report);
   const double at_rest = scene.solver.rest_residual > 0 ? scene.solver.rest_residual : kAtRest;
   const bool converged =
       report.residual_rms < at_rest && report.seam_gap_max < kClosedSeam && report.penetration_max <= kWrongSide;

@@ -268,7 +268,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
   }
   stage("measure", kDraped);
   measure_geometry(result.cloth, bodies.fields().whole, report);
-  add_warnings(result.cloth, contact_distance, report);
+  add_warnings(result.cloth, contact_distance, scene.solver.contact_distance, report);
   if (report.status == "converged" && report.penetration_max > kWrongSide) {
     report.status = "not_converged";
     report.stop_reason = "inside_body";

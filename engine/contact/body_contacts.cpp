@@ -9,7 +9,7 @@ namespace toile {
 namespace {
 
 constexpr std::uint64_t kVertexKey = std::uint64_t{1} << 62, kEdgeKey = std::uint64_t{1} << 63,
-                        kTriangleKey = kVertexKey + kEdgeKey, kSide = std::uint64_t{1} << 40;
+                        kTriangleKey = kVertexKey + kEdgeKey;
 
 constexpr int kGrain = 256;     // features a task
 constexpr double kApart = 0.8;  // cosine of the angle between surfaces that are two
@@ -18,7 +18,7 @@ constexpr double kSame = 1e-4;  // [m] what a grid of the field leaves uncertain
 /// What the body does to a point: the nearest surface first and, in a fold, those around it. Distances are those of the
 /// point [m].
 struct Touch {
-  std::array<BodyField::Sample, 6> sides;
+  std::array<BodyField::Sample, Contact::most_sides> sides;
   int count = 1;
   double distance() const { return sides[0].distance; }
 };
@@ -94,7 +94,7 @@ std::vector<Contact> body_contacts(const CollisionMesh& mesh, const BodyField& b
     c.friction = mu;
     c.anchor = p;
     for (int side = 0; side < at.count; ++side) {
-      c.key = key + static_cast<std::uint64_t>(side) * kSide;
+      c.key = key + static_cast<std::uint64_t>(side) * Contact::side_key;
       c.normal = at.sides[side].normal;
       c.offset = c.normal.dot(p) - at.sides[side].distance;
       contacts.push_back(c);

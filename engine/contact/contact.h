@@ -16,6 +16,11 @@ namespace toile {
 /// the tangential spring is unloaded), which slides when its force exceeds friction · normal force. A bilateral contact
 /// (an edge attached to the body that slides along it) also pulls, and rubs under pull as it does under push.
 struct Contact {
+  /// In a fold of the body, one feature touches several surfaces at a time, in an order that changes: the keys of these
+  /// contacts differ by multiples of side_key.
+  static constexpr std::uint64_t side_key = std::uint64_t{1} << 40;
+  static constexpr int most_sides = 6;
+
   std::array<int, 4> nodes{};
   std::array<double, 4> weights{};
   int count = 0;  ///< nodes in use

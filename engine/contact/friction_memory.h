@@ -8,7 +8,8 @@
 
 namespace toile {
 
-/// Remembers, by contact key, the unreleased tangential displacement p − anchor.
+/// Remembers, by contact key, the unreleased tangential displacement p − anchor. In a fold of the body, where the order
+/// of a feature's surfaces changes, a contact has what was remembered of the one whose normal is most like its own.
 class FrictionMemory {
  public:
   /// Sets the anchors of freshly detected contacts (whose anchor is p itself) from what is remembered.
@@ -17,7 +18,12 @@ class FrictionMemory {
   void store(const std::vector<Contact>& contacts, const Positions& x);
 
  private:
-  std::unordered_map<std::uint64_t, Vec3> stretched_;
+  struct Stretched {
+    Vec3 displacement, normal;
+  };
+  const Stretched* of(const Contact& contact) const;
+
+  std::unordered_map<std::uint64_t, Stretched> stretched_;
 };
 
 }  // namespace toile

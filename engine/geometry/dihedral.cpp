@@ -1,5 +1,7 @@
 #include "engine/geometry/dihedral.h"
 
+#include "engine/geometry/rotation.h"
+
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
@@ -38,12 +40,6 @@ std::optional<Hinge> make_hinge(const Vec3& x0, const Vec3& x1, const Vec3& x2, 
   const double least = std::max(kLeastHeight * kLeastHeight * length2 * length2, DBL_MIN);
   if (!(n1.squaredNorm() > least && n2.squaredNorm() > least)) return std::nullopt;
   return Hinge{e, u, v, length2, make_wing(n1, u, e, length2), make_wing(n2, v, e, length2)};
-}
-
-Mat3 cross_matrix(const Vec3& a) {
-  Mat3 m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return m;
 }
 
 /// Derivatives of one wing's tip gradient and foot with respect to the edge and the tip (both relative to x0).

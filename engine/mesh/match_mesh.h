@@ -20,7 +20,7 @@ struct MatchedCloth {
 /// Throws InputError (`mesh_mismatch`) at "" that tells the counts of both, and `mesh_out_of_range` for coordinates
 /// beyond a kilometre. A mesh without triangles is matched by its vertices alone.
 /// Mind the digits of a file: a nanometre on a triangle of 10 mm is a force of some per cent of a vertex's weight where
-/// the fabric is stiff; mesh.obj has nine digits, the floats of a GLB have seven.
+/// the fabric is stiff; mesh.obj has all of them, the floats of a GLB have seven.
 MatchedCloth match_mesh(const Cloth& apart, const TriangleMesh& mesh);
 
 }  // namespace toile

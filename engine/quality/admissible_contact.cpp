@@ -14,7 +14,7 @@ Vec3 into_cone(const Vec3& force, const Vec3& normal, double friction) {
   const double along = force.dot(normal);
   const Vec3 tangent = force - along * normal;
   const double across = tangent.norm();
-  if (across <= friction * along) return force;
+  if (along >= 0 && across <= friction * along) return force;
   if (friction * across <= -along) return Vec3::Zero();
   const double pressure = (along + friction * across) / (1 + friction * friction);
   return pressure * (normal + friction * tangent / across);

@@ -1,6 +1,7 @@
 #include "engine/quality/discretisation_error.h"
 
 #include "engine/geometry/dihedral.h"
+#include "engine/geometry/flat_triangle.h"
 #include "engine/mesh/topology.h"
 #include "engine/terms/contact.h"
 
@@ -10,11 +11,6 @@
 
 namespace toile {
 namespace {
-
-double flat_area(const std::array<Vec2, 3>& corner) {
-  const Vec2 a = corner[1] - corner[0], b = corner[2] - corner[0];
-  return 0.5 * std::abs(a.x() * b.y() - a.y() * b.x());
-}
 
 /// Of the edge v0–v1, in the flat pattern of a triangle that has it.
 Vec2 flat_edge(const Cloth& cloth, int triangle, int v0, int v1) {

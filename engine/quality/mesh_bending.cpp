@@ -1,5 +1,6 @@
 #include "engine/quality/mesh_bending.h"
 
+#include "engine/geometry/flat_triangle.h"
 #include "engine/terms/bending.h"
 
 #include <Eigen/IterativeLinearSolvers>
@@ -51,11 +52,6 @@ Cloth middle_of(const Cloth& cloth, int panel) {
   part.fabrics.resize(1);
   part.fabrics[0].bending_stiffness = {1, 1, 1};
   return part;
-}
-
-double flat_area(const std::array<Vec2, 3>& flat) {
-  const Vec2 a = flat[1] - flat[0], b = flat[2] - flat[0];
-  return 0.5 * std::abs(a.x() * b.y() - a.y() * b.x());
 }
 
 bool inside(const BendingStencil& s) { return s.hinge[0] && s.hinge[1] && s.hinge[2]; }

@@ -1,6 +1,10 @@
 #include "engine/quality/warnings.h"
 
+#include "engine/geometry/flat_triangle.h"
+#include "engine/quality/stretch.h"
+
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace toile {
@@ -10,8 +14,12 @@ constexpr double kOverstretched = 0.05;    // 99th percentile of a woven fabric'
 constexpr double kCompressedShare = 1e-3;  // of the area, squeezed beyond StVK
 constexpr double kDeepPenetration = 2e-3;  // [m]
 constexpr double kLargeResidual = 0.1;     // rms of the net force over nodal weight
+constexpr double kRestResidual = 0.05;     // the same of what has not converged
 constexpr double kThinLayer = 0.1;         // contact distance over edge length; layers meet few features of each other
 constexpr double kThinShare = 0.01;        // of the area
+constexpr double kCapped = 0.95;           // contact distance over what was wanted
+constexpr double kLongEdge = 1.5;          // edge over the fabric's bending length
+constexpr double kLongShare = 0.01;        // of the area
 
 template <typename... Values>
 std::string sentence(const char* format, Values... values) {
@@ -21,10 +29,12 @@ std::string sentence(const char* format, Values... values) {
 }
 
 void warn_of_stretch(const Cloth& cloth, Report& report) {
-  const bool woven = !cloth.fabrics.empty() && std::all_of(cloth.fabrics.begin(), cloth.fabrics.end(),
-                                                           [](const Fabric& fabric) { return fabric.woven; });
-  const double stretch = std::max(report.stretch_warp.p99, report.stretch_weft.p99);
-  if (woven && stretch > kOverstretched)
+  TriangleStretch woven = triangle_stretch(cloth.flat, cloth.triangles, cloth.x);
+  for (std::size_t t = 0; t < cloth.triangles.size(); ++t)
+    if (!cloth.fabrics[cloth.panels[cloth.triangle_panel[t]].fabric].woven) woven.area[t] = 0;
+  const double stretch =
+      std::max(stretch_statistics(woven.warp, woven.area).p99, stretch_statistics(woven.weft, woven.area).p99);
+  if (stretch > kOverstretched)
     report.warnings.push_back(
         sentence("over-stretched: 1 %% of the woven fabric is stretched by more than %.1f %%", 100 * stretch));
   if (report.compressed_share > kCompressedShare)
@@ -47,10 +57,7 @@ void warn_of_thin_layers(const Cloth& cloth, const std::vector<double>& contact_
   if (report.contacts.cloth == 0 || contact_distance.empty()) return;
   double thin = 0, total = 0, thinnest = 1;
   for (std::size_t t = 0; t < cloth.triangles.size(); ++t) {
-    const auto& flat = cloth.flat[t];
-    const Vec2 a = flat[1] - flat[0], b = flat[2] - flat[0];
-    const double area = 0.5 * std::abs(a.x() * b.y() - a.y() * b.x());
-    const double edge = (a.norm() + b.norm() + (b - a).norm()) / 3;
+    const double area = flat_area(cloth.flat[t]), edge = mean_edge(cloth.flat[t]);
     double distance = contact_distance[cloth.triangles[t][0]];
     for (int v : cloth.triangles[t]) distance = std::min(distance, contact_distance[v]);
     total += area;
@@ -65,18 +72,64 @@ void warn_of_thin_layers(const Cloth& cloth, const std::vector<double>& contact_
                  100 * thin / total, thinnest));
 }
 
+/// Where triangles are too small for the distance that was asked for, or for the fabric's thickness.
+void warn_of_capped_layers(const Cloth& cloth, const std::vector<double>& contact_distance, double asked,
+                           Report& report) {
+  if (report.contacts.cloth == 0 || contact_distance.empty()) return;
+  double capped = 0, total = 0, least = 1, wanted_there = 0;
+  for (std::size_t t = 0; t < cloth.triangles.size(); ++t) {
+    const double area = flat_area(cloth.flat[t]);
+    const double wanted = asked > 0 ? asked : cloth.fabrics[cloth.panels[cloth.triangle_panel[t]].fabric].thickness;
+    double distance = contact_distance[cloth.triangles[t][0]];
+    for (int v : cloth.triangles[t]) distance = std::min(distance, contact_distance[v]);
+    total += area;
+    if (distance >= kCapped * wanted) continue;
+    capped += area;
+    if (distance < least) least = distance, wanted_there = wanted;
+  }
+  if (capped > kThinShare * total)
+    report.warnings.push_back(
+        sentence("near layers: on %.0f %% of the cloth its layers keep less than the %.1f mm that they should (down to "
+                 "%.1f mm), for they keep no more than 0.3 of a triangle's smallest altitude",
+                 100 * capped / total, 1e3 * wanted_there, 1e3 * least));
+}
+
+/// Edges that are long beside (D/(ρ g))^⅓ can't form the folds in which such cloth hangs: it stands off like a board.
+void warn_of_long_edges(const Cloth& cloth, Report& report) {
+  double longest = 0, length = 0, long_area = 0, total = 0;
+  for (std::size_t t = 0; t < cloth.triangles.size(); ++t) {
+    const Fabric& fabric = cloth.fabrics[cloth.panels[cloth.triangle_panel[t]].fabric];
+    const Directional& d = fabric.bending_stiffness;
+    const double bending_length = std::cbrt((d.warp + d.weft + d.bias) / 3 / (fabric.area_density * kGravity));
+    const double area = flat_area(cloth.flat[t]), edge = mean_edge(cloth.flat[t]);
+    total += area;
+    if (edge <= kLongEdge * bending_length) continue;
+    long_area += area;
+    if (edge > longest) longest = edge, length = bending_length;
+  }
+  if (long_area > kLongShare * total)
+    report.warnings.push_back(
+        sentence("coarse mesh: edges up to %.1f mm on a fabric of %.1f mm bending length can't fold as it would: "
+                 "choose a smaller edge_length_mm",
+                 1e3 * longest, 1e3 * length));
+}
+
 void warn_of_unrest(Report& report) {
-  if (report.residual_rms > kLargeResidual)
+  const bool converged = report.status == "converged";
+  if (report.residual_rms > (converged ? kLargeResidual : kRestResidual))
     report.warnings.push_back(
         sentence("not at rest: forces do not balance, rms residual %.2f of the nodal weight", report.residual_rms));
 }
 
 }  // namespace
 
-void add_warnings(const Cloth& cloth, const std::vector<double>& contact_distance, Report& report) {
+void add_warnings(const Cloth& cloth, const std::vector<double>& contact_distance, double asked_distance,
+                  Report& report) {
   warn_of_stretch(cloth, report);
   warn_of_contact(report);
   warn_of_thin_layers(cloth, contact_distance, report);
+  warn_of_capped_layers(cloth, contact_distance, asked_distance, report);
+  warn_of_long_edges(cloth, report);
   warn_of_unrest(report);
 }
 

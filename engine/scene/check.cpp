@@ -71,6 +71,8 @@ void check_solver(const SolverOptions& solver, std::vector<Problem>& problems) {
   require(positive(solver.max_time_step), "max_time_step_s", "The time step must be positive.");
   require(positive(solver.simulated_time_limit), "simulated_time_limit_s", "The time limit must be positive.");
   require(positive(solver.newton_tolerance), "newton_tolerance_kg_m_s", "The tolerance must be positive.");
+  require(not_negative(solver.newton_momentum_fraction), "newton_momentum_fraction",
+          "The fraction must not be negative.");
   require(positive(solver.cg_tolerance), "cg_tolerance", "The tolerance must be positive.");
   require(solver.newton_iterations > 0, "newton_iterations", "At least one iteration is needed.");
   require(solver.line_search_iterations >= 1, "line_search_iterations", "A step needs a length to try.");
@@ -87,6 +89,8 @@ void check_solver(const SolverOptions& solver, std::vector<Problem>& problems) {
   require(not_negative(solver.contact_distance), "contact_distance_mm", "The distance must not be negative.");
   require(not_negative(solver.body_offset), "body_offset_mm", "The offset must not be negative.");
   require(not_negative(solver.rest_kinetic_energy), "rest_kinetic_energy_j", "The energy must not be negative.");
+  require(not_negative(solver.rest_residual), "rest_residual", "The residual must not be negative.");
+  require(solver.steps_before_growth >= 1, "steps_before_growth", "At least one step must succeed.");
   require(not_negative(solver.rest_window), "rest_window_s", "The window must not be negative.");
 }
 

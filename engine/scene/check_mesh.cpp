@@ -1,3 +1,4 @@
+#include "engine/geometry/flat_triangle.h"
 #include "engine/mesh/topology.h"
 #include "engine/scene/check_parts.h"
 
@@ -8,11 +9,6 @@ namespace toile {
 namespace {
 
 constexpr double kSmallestExtent = 1e-6;  // [m]
-
-double flat_area(const std::array<Vec2, 3>& corners) {
-  const Vec2 a = corners[1] - corners[0], b = corners[2] - corners[0];
-  return std::abs(a.x() * b.y() - a.y() * b.x()) / 2;
-}
 
 }  // namespace
 

@@ -13,7 +13,7 @@ struct SolverOptions {
   double newton_momentum_fraction = 0.05;
   double cg_tolerance = 1e-2;           ///< tau_cg: relative residual
   int newton_iterations = 5;            ///< I_n
-  int line_search_iterations = 5;       ///< I_ls, lengths tried: 1, 1/2, 1/4, …
+  int line_search_iterations = 5;       ///< I_ls, lengths tried: 1, 1/2, 1/4, …; twice as many after the first iteration
   int cg_iterations = 500;              ///< at most per linear solve
   double splitting_factor = 0.75;       ///< omega
   int steps_before_growth = 5;          ///< I_s successful steps before h grows

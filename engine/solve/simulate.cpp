@@ -92,6 +92,7 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
     result.times.collisions += seconds_since(begun);
   };
 
+  const Clock::time_point began = Clock::now();
   double t = 0, next_force_check = 0;
   bool balanced = false;
   std::vector<double> energy(vertices, 0.0);
@@ -171,6 +172,8 @@ Simulation simulate(Cloth& cloth, const SimulationScene& scene, const Simulation
   result.times.assembly = step_times.assembly;
   result.times.linear_solve = step_times.linear_solve;
   result.times.line_search = step_times.line_search;
+  result.times.other = std::max(0.0, seconds_since(began) - result.times.collisions - step_times.derivatives -
+                                         step_times.assembly - step_times.linear_solve - step_times.line_search);
   for (double e : energy) result.kinetic_energy += e;
   result.contacts = std::move(contacts);
   result.trim_contacts = std::move(trim_contacts);

@@ -1,6 +1,7 @@
 // How a cloth's triangles become stencils of the bending term.
 
 #include "engine/terms/bending.h"
+#include "engine/geometry/flat_triangle.h"
 #include "engine/terms/bending_balance.h"
 #include "engine/terms/curvature_fit.h"
 
@@ -71,11 +72,6 @@ FlatEdge flat_edge(const std::array<Vec2, 3>& flat, int corner) {
   if (height < 0) e.across = -e.across;
   e.wing = {std::abs(height), e.along.dot(c - a)};
   return e;
-}
-
-double flat_area(const std::array<Vec2, 3>& flat) {
-  const Vec2 a = flat[1] - flat[0], b = flat[2] - flat[0];
-  return 0.5 * std::abs(a.x() * b.y() - a.y() * b.x());
 }
 
 using EdgeKey = std::pair<int, int>;

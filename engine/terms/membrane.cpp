@@ -1,5 +1,7 @@
 #include "engine/terms/membrane.h"
 
+#include "engine/geometry/rotation.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -145,12 +147,6 @@ Compression compression_of(const MembraneStencil& s, const StencilPoints<3>& x) 
   c.normal = cross / c.doubled_area;
   for (int i = 0; i < 3; ++i) c.gradient[i] = c.normal.cross(x[(i + 2) % 3] - x[(i + 1) % 3]) / doubled_rest;
   return c;
-}
-
-Mat3 cross_matrix(const Vec3& a) {
-  Mat3 m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return m;
 }
 
 StencilMatrix<3> hessian_of(const MembraneStencil& s, const MembraneModuli& moduli, const Mat32& f,

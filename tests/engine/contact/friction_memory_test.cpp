@@ -86,6 +86,26 @@ TEST(FrictionMemory, ContactsThatAreGoneAreForgotten) {
   EXPECT_EQ(next[0].anchor, x[0]);
 }
 
+TEST(FrictionMemory, InAFoldEachSurfaceKeepsItsOwnInWhateverOrder) {
+  FrictionMemory memory;
+  const Positions x{Vec3(0, 1e-3, 0)};
+  const auto touching = [&](std::uint64_t side, const Vec3& normal) {
+    Contact c = fresh_contact(x[0], 7 + side * Contact::side_key);
+    c.normal = normal;
+    return c;
+  };
+  const Vec3 floor = Vec3::UnitY(), wall = Vec3(1, 0.1, 0).normalized();
+  std::vector<Contact> contacts{touching(0, floor), touching(1, wall)};
+  contacts[0].anchor = x[0] - Vec3(0, 0, 1e-5);
+  contacts[1].anchor = x[0] - Vec3(0, 0, 3e-5);
+  memory.store(contacts, x);
+  std::vector<Contact> next{touching(0, wall), touching(1, floor), touching(2, -floor)};
+  memory.recall(next, x);
+  EXPECT_LT((next[0].anchor - contacts[1].anchor).norm(), 1e-16);
+  EXPECT_LT((next[1].anchor - contacts[0].anchor).norm(), 1e-16);
+  EXPECT_EQ(next[2].anchor, x[0]);
+}
+
 TEST(FrictionMemory, KeysTellContactsApart) {
   FrictionMemory memory;
   const Positions x{Vec3(0, 1e-3, 0)};

@@ -1,7 +1,6 @@
 #include "engine/quality/measure.h"
 
 #include "engine/parallel/state_hash.h"
-#include "engine/quality/warnings.h"
 
 #include <gtest/gtest.h>
 
@@ -25,11 +24,6 @@ Cloth square(double y) {
   cloth.panels.resize(1);
   cloth.fabrics.resize(1);
   return cloth;
-}
-
-bool warns(const Report& report, const std::string& words) {
-  return std::any_of(report.warnings.begin(), report.warnings.end(),
-                     [&](const std::string& w) { return w.find(words) != std::string::npos; });
 }
 
 TEST(MeasureGeometry, FillsWhatTheFinalStateShowsAndNothingElse) {
@@ -100,39 +94,6 @@ TEST(MeasureResidual, IsTheNetForceOverTheNodalWeight) {
   measure_residual({Vec3(1, 1, 1)}, {1}, {1}, report);  // nothing is free
   EXPECT_EQ(report.residual_rms, 0);
   EXPECT_EQ(report.residual_max, 0);
-}
-
-TEST(Warnings, SayWhatAReaderShouldNotOverlook) {
-  const Cloth cloth = square(0);
-  Report fine;
-  fine.stretch_warp.p99 = 0.04;
-  fine.penetration_max = 1e-3;
-  fine.residual_rms = 0.01;
-  add_warnings(cloth, {}, fine);
-  EXPECT_TRUE(fine.warnings.empty());
-
-  Report bad;
-  bad.warnings = {"said before"};
-  bad.stretch_weft.p99 = 0.123;
-  bad.penetration_max = 3.4e-3;
-  bad.self_intersections = 17;
-  bad.residual_rms = 0.5;
-  add_warnings(cloth, {}, bad);
-  EXPECT_EQ(bad.warnings.size(), 5u);
-  EXPECT_TRUE(warns(bad, "said before"));
-  EXPECT_TRUE(warns(bad, "12.3 %"));
-  EXPECT_TRUE(warns(bad, "3.4 mm"));
-  EXPECT_TRUE(warns(bad, "17 pairs"));
-  EXPECT_TRUE(warns(bad, "0.50"));
-}
-
-TEST(Warnings, KnitsMayStretch) {
-  Cloth cloth = square(0);
-  cloth.fabrics[0].woven = false;
-  Report report;
-  report.stretch_weft.p99 = 0.2;
-  add_warnings(cloth, {}, report);
-  EXPECT_TRUE(report.warnings.empty());
 }
 
 }  // namespace
