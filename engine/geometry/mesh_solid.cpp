@@ -52,7 +52,7 @@ class MeshSolid final : public Solid {
 
   std::shared_ptr<const Solid> without_overhangs() const override {
     std::optional<SoupSolid> standing = cut_overhangs(solid_, grid_);
-    if (!standing) return nullptr;
+    if (!standing || standing->triangles.empty()) return nullptr;
     TriangleMesh surface;
     surface.vertices = standing->vertices;
     surface.triangles = standing->triangles;

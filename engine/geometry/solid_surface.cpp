@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 namespace toile {
@@ -30,6 +31,7 @@ constexpr double kMostHoleNodes = 4e5;   ///< per hole, of the grid on which it 
 TriangleMesh welded(const TriangleMesh& mesh) {
   TriangleMesh result;
   std::map<std::tuple<double, double, double>, int> seen;
+  std::set<Triangle> known;
   std::vector<int> index(mesh.vertices.size());
   for (size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3& x = mesh.vertices[i];
@@ -39,9 +41,61 @@ TriangleMesh welded(const TriangleMesh& mesh) {
   }
   for (const auto& [a, b, c] : mesh.triangles) {
     const Triangle t{index[a], index[b], index[c]};
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) result.triangles.push_back(t);
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    Triangle corners = t;
+    std::sort(corners.begin(), corners.end());
+    if (known.insert(corners).second) result.triangles.push_back(t);
   }
   return result;
+}
+
+/// Turns triangles that run along an edge the way their only neighbour there does, in each part the fewer; returns how
+/// many. A part that can't be wound alike (a Möbius strip) is left.
+int wind_alike(TriangleMesh& mesh) {
+  struct Side {
+    int triangle;
+    bool forward;
+  };
+  std::map<std::pair<int, int>, std::vector<Side>> sides;
+  const int count = static_cast<int>(mesh.triangles.size());
+  for (int t = 0; t < count; ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+      sides[{std::min(a, b), std::max(a, b)}].push_back({t, a < b});
+    }
+  std::vector<std::vector<std::pair<int, bool>>> neighbours(mesh.triangles.size());  // and whether it runs against
+  for (const auto& [edge, at] : sides) {
+    if (at.size() != 2) continue;
+    const bool against = at[0].forward == at[1].forward;
+    neighbours[at[0].triangle].emplace_back(at[1].triangle, against);
+    neighbours[at[1].triangle].emplace_back(at[0].triangle, against);
+  }
+  int turned = 0;
+  std::vector<int> turn(mesh.triangles.size(), -1);  // unknown
+  for (int first = 0; first < count; ++first) {
+    if (turn[first] >= 0) continue;
+    std::vector<int> part{first};
+    turn[first] = 0;
+    bool one_sided = false;
+    for (std::size_t i = 0; i < part.size(); ++i)
+      for (const auto& [next, against] : neighbours[part[i]]) {
+        const int wanted = against ? 1 - turn[part[i]] : turn[part[i]];
+        if (turn[next] < 0) {
+          turn[next] = wanted;
+          part.push_back(next);
+        } else if (turn[next] != wanted) {
+          one_sided = true;
+        }
+      }
+    if (one_sided) continue;
+    const auto against = std::count_if(part.begin(), part.end(), [&](int t) { return turn[t] == 1; });
+    const auto size = static_cast<std::ptrdiff_t>(part.size());
+    const int fewer = 2 * against <= size ? 1 : 0;
+    turned += static_cast<int>(fewer == 1 ? against : size - against);
+    for (const int t : part)
+      if (turn[t] == fewer) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  }
+  return turned;
 }
 
 class UnionFind {
@@ -214,6 +268,11 @@ SolidSurface make_solid_surface(const TriangleMesh& mesh, double spacing) {
   SolidSurface result;
   TriangleMesh clean = welded(mesh);
   if (clean.triangles.empty()) not_solid("The body's mesh has no triangle with an area, so it has no inside.");
+  const int against = wind_alike(clean);
+  if (against > 0) {
+    result.warnings.push_back("The body has " + std::to_string(against) +
+                              " triangle(s) wound against their neighbours; they were turned.");
+  }
   const int turned = orient(clean);
   if (turned > 0) {
     result.warnings.push_back("The body has " + std::to_string(turned) +

@@ -16,8 +16,9 @@ struct SolidSurface {
   std::vector<std::string> warnings;
 };
 
-/// Inside is where the generalised winding number exceeds ½. Vertices at the same place are one; connected parts with a
-/// negative volume are turned; pieces of the surface that don't separate inside from outside (within other parts, in
+/// Inside is where the generalised winding number exceeds ½. Vertices at the same place are one, and so are
+/// triangles of the same corners; triangles wound against their neighbours are turned, and then connected parts with a
+/// negative volume; pieces of the surface that don't separate inside from outside (within other parts, in
 /// the overlap of a fold) are cut off to within a millimetre; holes are closed by the ½ level of the winding number.
 /// `spacing` [m] is the grid's that the surface is for. Throws InputError `body_not_solid` at /body/mesh where the
 /// holes are as large as the surface (an open sheet) or nothing separates inside from outside.

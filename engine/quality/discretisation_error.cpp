@@ -21,18 +21,38 @@ Vec2 flat_edge(const Cloth& cloth, int triangle, int v0, int v1) {
   return at(v1) - at(v0);
 }
 
-double shape_error(const Cloth& cloth, const std::vector<double>& area, double total) {
-  std::vector<Mat2> curvature(area.size(), Mat2::Zero());  // times area
+struct Curvature {
+  Mat2 tensor = Mat2::Zero();  // times the triangle's area
+  int hinges = 0;
+};
+
+std::vector<Curvature> curvatures(const Cloth& cloth) {
+  std::vector<Curvature> curvature(cloth.triangles.size());
   for (const Hinge& h : hinges(cloth.triangles)) {
     const double angle = dihedral_angle(cloth.x[h.v0], cloth.x[h.v1], cloth.x[h.v2], cloth.x[h.v3]);
     for (const int t : {h.triangle_a, h.triangle_b}) {
       const Vec2 edge = flat_edge(cloth, t, h.v0, h.v1), normal = Vec2(-edge.y(), edge.x());
-      if (edge.norm() > 0) curvature[t] += 0.5 * angle / edge.norm() * normal * normal.transpose();
+      if (edge.norm() > 0) curvature[t].tensor += 0.5 * angle / edge.norm() * normal * normal.transpose();
+      ++curvature[t].hinges;
     }
   }
+  return curvature;
+}
+
+double shape_error(const Cloth& cloth, const std::vector<double>& area, double total) {
+  constexpr double kChord = 1.0 / 16;
+  const std::vector<Curvature> curvature = curvatures(cloth);
   double sum = 0;
-  for (std::size_t t = 0; t < area.size(); ++t) sum += 4 / std::numbers::sqrt3 * area[t] * curvature[t].norm();
-  return kShapeErrorFactor * sum / total;
+  for (std::size_t t = 0; t < area.size(); ++t) {
+    const double h = std::sqrt(4 / std::numbers::sqrt3 * area[t]);
+    const double length = bending_length(cloth.fabrics[cloth.panels[cloth.triangle_panel[t]].fabric]);
+    const Mat2& tensor = curvature[t].tensor;
+    sum += kChord * h * h * tensor.norm();
+    // Along a free edge a hinge is missing, which alone would show as curvature in two directions.
+    if (curvature[t].hinges == 3)
+      sum += kFoldErrorFactor * h * std::max(h, length) * std::sqrt(std::abs(tensor.determinant()));
+  }
+  return sum / total;
 }
 
 double offset_error(const Cloth& cloth, const std::vector<double>& area, double total,

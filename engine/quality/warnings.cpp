@@ -4,7 +4,6 @@
 #include "engine/quality/stretch.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace toile {
@@ -99,13 +98,11 @@ void warn_of_long_edges(const Cloth& cloth, Report& report) {
   double longest = 0, length = 0, long_area = 0, total = 0;
   for (std::size_t t = 0; t < cloth.triangles.size(); ++t) {
     const Fabric& fabric = cloth.fabrics[cloth.panels[cloth.triangle_panel[t]].fabric];
-    const Directional& d = fabric.bending_stiffness;
-    const double bending_length = std::cbrt((d.warp + d.weft + d.bias) / 3 / (fabric.area_density * kGravity));
-    const double area = flat_area(cloth.flat[t]), edge = mean_edge(cloth.flat[t]);
+    const double area = flat_area(cloth.flat[t]), edge = mean_edge(cloth.flat[t]), able = bending_length(fabric);
     total += area;
-    if (edge <= kLongEdge * bending_length) continue;
+    if (edge <= kLongEdge * able) continue;
     long_area += area;
-    if (edge > longest) longest = edge, length = bending_length;
+    if (edge > longest) longest = edge, length = able;
   }
   if (long_area > kLongShare * total)
     report.warnings.push_back(

@@ -50,4 +50,10 @@ struct Fabric {
   bool operator==(const Fabric&) const = default;
 };
 
+/// (D/(ρ g))^⅓ [m] with the mean D of warp, weft and bias: how far its own weight lets cloth stand off (Peirce 1930).
+inline double bending_length(const Fabric& fabric) {
+  const Directional& d = fabric.bending_stiffness;
+  return std::cbrt((d.warp + d.weft + d.bias) / 3 / (fabric.area_density * kGravity));
+}
+
 }  // namespace toile

@@ -338,7 +338,7 @@ TEST(Drape, WithoutABodyAPinnedClothHangs) {
 }
 
 TEST(Drape, AnEmptyWarningListMeansNothingToSay) {
-  Scene scene = ball_scene();
+  Scene scene = ball_scene(0.015);
   CountingMonitor monitor;
   const Drape result = drape(scene, monitor);
   EXPECT_EQ(result.report.status, "converged");

@@ -118,6 +118,33 @@ TEST(MeshField, InsideOutIsTurned) {
   ASSERT_EQ(field.warnings().size(), 1u);
 }
 
+TEST(MeshField, TrianglesWoundAgainstTheirNeighboursAreTurned) {
+  const TriangleMesh ball = icosphere(4, 0.1);
+  const BodyField right = field_of(ball);
+  TriangleMesh mixed = ball;
+  for (std::size_t t = 0; t < mixed.triangles.size(); t += 3) std::swap(mixed.triangles[t][1], mixed.triangles[t][2]);
+  const BodyField field = field_of(mixed);
+  ASSERT_EQ(field.warnings().size(), 1u);
+  EXPECT_NE(field.warnings()[0].find("wound against their neighbours"), std::string::npos) << field.warnings()[0];
+  for (const Vec3& p : {Vec3(0, 0, 0), Vec3(0.12, 0, 0), Vec3(0.03, 0.08, 0.02), Vec3(0, -0.11, 0.05)})
+    EXPECT_EQ(field.distance(p), right.distance(p));
+}
+
+TEST(MeshField, TrianglesGivenTwiceOrOnBothSidesCountOnce) {
+  const TriangleMesh ball = icosphere(4, 0.1);
+  const BodyField right = field_of(ball);
+  TriangleMesh twice = ball, both_sides = ball;
+  for (const Triangle& t : ball.triangles) {
+    twice.triangles.push_back({t[1], t[2], t[0]});
+    both_sides.triangles.push_back({t[0], t[2], t[1]});
+  }
+  for (const TriangleMesh& mesh : {twice, both_sides}) {
+    const BodyField field = field_of(mesh);
+    EXPECT_TRUE(field.warnings().empty());
+    for (const Vec3& p : {Vec3(0.09, 0, 0), Vec3(0.12, 0, 0)}) EXPECT_EQ(field.distance(p), right.distance(p));
+  }
+}
+
 TEST(MeshField, CrossingPartsHaveNoSurfaceInside) {
   const double r = 0.1;
   const Vec3 other(0.11, 0, 0);
