@@ -84,10 +84,11 @@ Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& o
     for (const std::string& warning : body->warnings()) report.warnings.push_back(warning);
   report.seam_gap_max = matched.seam_gap_max;
   const std::vector<SlidingVertex> sliding = sliding_vertices(scene, at_start);
+  const std::vector<int> attached = attached_vertices(scene, at_start);
   const SimulationScene still{scene.solver,
                               body ? &*body : nullptr,
                               scene.body ? scene.body->friction.value_or(-1) : 0.0,
-                              held_vertices(scene, at_start, attached_vertices(scene, at_start), sliding),
+                              held_vertices(scene, at_start, attached, sliding),
                               scene.friction_pairs,
                               sliding,
                               make_trimmings(scene, matched.cloth)};
@@ -99,6 +100,7 @@ Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& o
   const std::vector<double> contact_distance = measure_equilibrium(matched.cloth, at_start.x, still, options, report);
   measure_geometry(matched.cloth, still.body, report);
   add_warnings(matched.cloth, contact_distance, scene.solver.contact_distance, report);
+  if (body) warn_of_far_garments(matched.cloth, *body, attached, report);
   const double at_rest = scene.solver.rest_residual > 0 ? scene.solver.rest_residual : kAtRest;
   const bool converged =
       report.residual_rms < at_rest && report.seam_gap_max < kClosedSeam && report.penetration_max <= kWrongSide;

@@ -2,8 +2,8 @@
 
 #include "engine/check.h"
 #include "engine/mesh/build_cloth.h"
-#include "engine/mesh/sewing.h"
 #include "engine/parallel/thread_limit.h"
+#include "engine/plausible_size.h"
 #include "engine/quality/measure.h"
 #include "engine/quality/mesh_bending.h"
 #include "engine/quality/stretch.h"
@@ -17,8 +17,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
-#include <functional>
 #include <optional>
 
 namespace toile {
@@ -78,68 +76,6 @@ Bodies make_bodies(const Scene& scene, const Cloth& cloth) {
   return bodies;
 }
 
-Vec3 extent_of(const Cloth& cloth, const std::function<bool(int)>& counts) {
-  Box box;
-  for (std::size_t t = 0; t < cloth.triangles.size(); ++t)
-    if (counts(cloth.triangle_panel[t]))
-      for (int v : cloth.triangles[t]) box.extend(cloth.x[v]);
-  return box.empty() ? Vec3(Vec3::Zero()) : Vec3(box.upper - box.lower);
-}
-
-/// Sewn garments whose size beside the body says that they were drawn in another unit than their document names: one
-/// far too long is refused, since sewing it would only take long (throws InputError `implausible_size`); of a tiny one
-/// a warning is left in the cloth.
-void check_size(Cloth& cloth, const BodyField& body) {
-  constexpr double kLongest = 2, kSmallest = 0.12;  // times the body's greatest extent, a panel and a garment
-  if (cloth.seam_pairs.empty() || !(body.bounds().upper - body.bounds().lower).allFinite()) return;
-  const double height = (body.bounds().upper - body.bounds().lower).maxCoeff();
-  char text[240];
-  for (std::size_t p = 0; p < cloth.panels.size(); ++p) {
-    const double size = extent_of(cloth, [&](int panel) { return panel == static_cast<int>(p); }).maxCoeff();
-    if (size <= kLongest * height) continue;
-    std::snprintf(text, sizeof text, "panel '%.80s' is %.1f m long and the body %.2f m: are the pattern's units right?",
-                  cloth.panels[p].name.c_str(), size, height);
-    throw InputError("/garments/" + std::to_string(cloth.panels[p].garment), "implausible_size", text);
-  }
-  const int garments = cloth.vertex_garment.empty() ? 0 : 1 + cloth.vertex_garment.back();
-  for (int g = 0; g < garments; ++g) {
-    const double size = extent_of(cloth, [&](int panel) { return cloth.panels[panel].garment == g; }).maxCoeff();
-    if (size >= kSmallest * height) continue;
-    std::snprintf(text, sizeof text,
-                  "implausible_size: garment %d is %.2g m in its longest direction and the body %.2f m: are its units "
-                  "right?",
-                  g, size, height);
-    cloth.warnings.emplace_back(text);
-  }
-}
-
-/// Throws InputError `empty_garment` where sewing leaves no triangle of a garment: then its edges are too long for it.
-void check_something_is_left(const Cloth& apart) {
-  if (apart.seam_pairs.empty()) return;
-  Cloth sewn = apart;
-  merge_seams(sewn);
-  const auto has_triangles = [&](const Cloth& cloth, int g) {
-    return std::any_of(cloth.triangle_panel.begin(), cloth.triangle_panel.end(),
-                       [&](int panel) { return cloth.panels[panel].garment == g; });
-  };
-  const int garments = apart.vertex_garment.empty() ? 0 : 1 + apart.vertex_garment.back();
-  for (int g = 0; g < garments; ++g)
-    if (!has_triangles(sewn, g))
-      throw InputError(
-          "/garments/" + std::to_string(g), "empty_garment",
-          "Sewing leaves no triangle of the garment: are its edges too long for its panels, or their units "
-          "wrong?");
-}
-
-/// What was found odd about sizes explains best why panels can't be sewn.
-[[noreturn]] void rethrow_with_sizes(const InputError& error, const std::vector<std::string>& warnings) {
-  std::vector<Problem> problems = error.problems();
-  for (const std::string& warning : warnings)
-    if (warning.rfind("implausible_size: ", 0) == 0)
-      problems.push_back({"/garments", "implausible_size", warning.substr(warning.find(' ') + 1)});
-  throw InputError(std::move(problems));
-}
-
 bool slides_on_body(const Scene& scene) {
   return std::any_of(scene.garments.begin(), scene.garments.end(), [](const Garment& garment) {
     return std::any_of(garment.pins.begin(), garment.pins.end(), [](const Pin& pin) {
@@ -191,6 +127,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
   check_scene(scene);
   stage("mesh", 0);
   Cloth apart = build_cloth(scene);
+  check_flat_size(apart, given_as_mesh(scene));
   warn_of_mesh_bending(apart, given_as_mesh(scene));
   check_something_is_left(apart);
   stage("body", 0.01);
@@ -269,6 +206,7 @@ Drape drape(const Scene& scene, Monitor& monitor) {
   stage("measure", kDraped);
   measure_geometry(result.cloth, bodies.fields().whole, report);
   add_warnings(result.cloth, contact_distance, scene.solver.contact_distance, report);
+  if (bodies.whole) warn_of_far_garments(result.cloth, *bodies.whole, assembly.attached, report);
   if (report.status == "converged" && report.penetration_max > kWrongSide) {
     report.status = "not_converged";
     report.stop_reason = "inside_body";

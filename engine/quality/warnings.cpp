@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 namespace toile {
 namespace {
@@ -19,6 +20,8 @@ constexpr double kThinShare = 0.01;        // of the area
 constexpr double kCapped = 0.95;           // contact distance over what was wanted
 constexpr double kLongEdge = 1.5;          // edge over the fabric's bending length
 constexpr double kLongShare = 0.01;        // of the area
+constexpr double kFarOff = 0.02;           // [m] from the body, all of a garment
+constexpr double kFarHeld = 0.03;          // [m] from the body, what is attached to it, in the mean
 
 template <typename... Values>
 std::string sentence(const char* format, Values... values) {
@@ -128,6 +131,31 @@ void add_warnings(const Cloth& cloth, const std::vector<double>& contact_distanc
   warn_of_capped_layers(cloth, contact_distance, asked_distance, report);
   warn_of_long_edges(cloth, report);
   warn_of_unrest(report);
+}
+
+void warn_of_far_garments(const Cloth& cloth, const BodyField& body, const std::vector<int>& attached,
+                          Report& report) {
+  const int garments = cloth.vertex_garment.empty() ? 0 : 1 + cloth.vertex_garment.back();
+  std::vector<double> nearest(garments, std::numeric_limits<double>::infinity()), held(garments, 0.0);
+  std::vector<int> count(garments, 0);
+  for (std::size_t v = 0; v < cloth.x.size(); ++v) {
+    double& least = nearest[cloth.vertex_garment[v]];
+    least = std::min(least, body.distance(cloth.x[v]));
+  }
+  for (const int v : attached) {
+    held[cloth.vertex_garment[v]] += body.distance(cloth.x[v]);
+    ++count[cloth.vertex_garment[v]];
+  }
+  for (int g = 0; g < garments; ++g) {
+    if (count[g] > 0 && held[g] > kFarHeld * count[g])
+      report.warnings.push_back(
+          sentence("far from the body: what is attached of garment %d is held over %.0f mm away from it on the average: "
+                   "does the garment's place fit the body's, with y up and the feet at y = 0?",
+                   g, std::floor(1e3 * held[g] / count[g])));
+    else if (nearest[g] > kFarOff)
+      report.warnings.push_back(sentence(
+          "far from the body: garment %d comes nowhere nearer to it than %.0f mm", g, std::floor(1e3 * nearest[g])));
+  }
 }
 
 }  // namespace toile

@@ -1,6 +1,7 @@
 #pragma once
 // Sentences about what a reader of a report should not overlook.
 
+#include "engine/geometry/body_field.h"
 #include "engine/mesh/cloth.h"
 #include "engine/report.h"
 
@@ -14,5 +15,9 @@ namespace toile {
 /// it was asked to, 0: nothing was asked.
 void add_warnings(const Cloth& cloth, const std::vector<double>& contact_distance, double asked_distance,
                   Report& report);
+
+/// Of garments that come nowhere near the body, and of those whose `attached` vertices (Pin with PinAttached) are held
+/// far from it on the average: they were placed for another body, or the body was placed for other garments.
+void warn_of_far_garments(const Cloth& cloth, const BodyField& body, const std::vector<int>& attached, Report& report);
 
 }  // namespace toile

@@ -99,13 +99,17 @@ void check_solver(const SolverOptions& solver, std::vector<Problem>& problems) {
 std::vector<Problem> scene_problems(const Scene& scene) {
   std::vector<Problem> problems;
   if (scene.garments.empty()) problems.push_back({"/garments", "empty_scene", "The scene has no garment."});
-  double vertices = 0;
+  double vertices = 0, most = -1;
+  std::size_t largest = 0;
   for (std::size_t g = 0; g < scene.garments.size(); ++g) {
-    vertices += check_garment(scene.garments[g], g, scene.body.has_value(), problems);
+    const double its = check_garment(scene.garments[g], g, scene.body.has_value(), problems);
+    vertices += its;
+    if (!(its <= most)) most = its, largest = g;
   }
   if (!(vertices <= kMaxVertices)) {
-    problems.push_back(
-        {"/garments", "too_many_vertices", "The garments need more than two million vertices at these edge lengths."});
+    problems.push_back({"/garments/" + std::to_string(largest), "too_many_vertices",
+                        "The garments need more than two million vertices at these edge lengths, most of them this "
+                        "one: are its edge length and its pattern's units right?"});
   }
   check_friction_pairs(scene, problems);
   if (scene.body) check_body(*scene.body, problems);

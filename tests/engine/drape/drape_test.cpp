@@ -228,6 +228,68 @@ TEST(Drape, RefusesAPatternReadInAMuchTooLargeUnitByItsSize) {
   EXPECT_NE(problems[0].detail.find("6.9 m long"), std::string::npos) << problems[0].detail;
 }
 
+TEST(Drape, AClothMuchLargerThanASmallBodyIsWarnedOfAndSewn) {
+  Scene scene = ball_scene();
+  Panel half = rectangle_panel("half", 0.25, 0.5);
+  half.rotation = Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX()).toRotationMatrix();
+  half.translation = Vec3(-0.126, 0.105, 0.25);
+  Panel other = half;
+  other.name = "other";
+  other.translation.x() = 0.126;
+  scene.garments[0].shape = Pattern{{half, other}, {{{0, 1}, {1, 3}, false}}};
+  scene.garments[0].edge_length = 0.05;
+  CountingMonitor monitor;
+  const Report report = drape(scene, monitor).report;
+  EXPECT_EQ(report.status, "converged");
+  EXPECT_TRUE(warns(report, "implausible_size: panel 'half' is 0.5 m long and the body 0.20 m"));
+}
+
+TEST(Drape, AMeshOfAnotherSizeThanItsFlatPatternIsWarnedOfOrRefused) {
+  const auto scene_with = [](double uv_unit) {
+    Scene scene = ball_scene(0.03);
+    GarmentMesh shape;
+    shape.mesh = surface_mesh(build_cloth(scene));
+    shape.uv_unit = uv_unit;
+    scene.garments[0].shape = std::move(shape);
+    scene.solver.simulated_time_limit = 0.02;
+    return scene;
+  };
+  CountingMonitor monitor;
+  EXPECT_FALSE(warns(drape(scene_with(1), monitor).report, "implausible_uv_unit"));
+  EXPECT_TRUE(warns(drape(scene_with(2), monitor).report, "0.5 times as large in space"));
+  const std::vector<Problem> problems = problems_of(scene_with(1000));
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].code, "implausible_uv_unit");
+  EXPECT_EQ(problems[0].pointer, "/garments/0/mesh");
+}
+
+TEST(Drape, AGarmentFarFromItsBodyIsWarnedOf) {
+  Scene scene = ball_scene(0.03);
+  scene.garments[0].pins = {{PinEdge{0, 2}, PinFixed{}}};
+  scene.body = Body{SphereBody{Vec3(0, 3, 0), 0.1}, 0.3};
+  CountingMonitor monitor;
+  EXPECT_TRUE(warns(drape(scene, monitor).report, "far from the body: garment 0"));
+}
+
+TEST(Drape, PanelsThatTouchAsDrawnComeApart) {
+  Scene scene = zipped_halves(0.1, 0.2, 0.2, 0, 0);
+  scene.garments[0].edge_length = 0.03;
+  scene.garments[0].pins = {{PinEdge{0, 2}, PinFixed{}}, {PinEdge{1, 2}, PinFixed{}}};
+  CountingMonitor monitor;
+  const Drape result = drape(scene, monitor);
+  EXPECT_EQ(result.report.status, "converged");
+  EXPECT_EQ(result.report.self_intersections, 0);
+  EXPECT_LT(result.report.stretch_weft.max, 0.01);
+}
+
+TEST(Drape, LayersInTheSamePlaceAreRefused) {
+  Scene scene = ball_scene(0.03);
+  scene.garments.push_back(scene.garments[0]);
+  const std::vector<Problem> problems = problems_of(scene);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].code, "coincident_layers");
+}
+
 TEST(Drape, OfATinyPatternItsSizeIsSaid) {
   CountingMonitor monitor;
   const Report report = drape(misread_skirt(0.1), monitor).report;

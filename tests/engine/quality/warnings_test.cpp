@@ -93,6 +93,23 @@ TEST(AddWarnings, OfAllThatAReaderShouldNotOverlookBesideWhatWasSaidBefore) {
                                                               HasSubstr("0.50")));
 }
 
+TEST(WarnOfFarGarments, WhereNothingOfOneIsNearAndWhereItIsHeldInTheAir) {
+  const BodyField ball = make_body_field({SphereBody{Vec3::Zero(), 0.1}, 0.3}, 0.01);
+  Cloth sheet = equilateral_sheet(4, 4, 0.01, suiting());
+  const auto said = [&](double height, const std::vector<int>& attached) {
+    Positions kept = sheet.x;
+    for (Vec3& x : sheet.x) x = Vec3(x.x(), height, x.y());
+    Report report;
+    warn_of_far_garments(sheet, ball, attached, report);
+    sheet.x = kept;
+    return report.warnings;
+  };
+  EXPECT_THAT(said(0.105, {}), IsEmpty());
+  EXPECT_THAT(said(0.105, {0, 1}), IsEmpty());
+  EXPECT_THAT(said(0.1505, {}), ElementsAre(HasSubstr("nowhere nearer to it than 50 mm")));
+  EXPECT_THAT(said(0.1505, {0}), ElementsAre(HasSubstr("attached of garment 0 is held over 50 mm")));
+}
+
 TEST(AddWarnings, OfForcesThatDoNotBalance) {
   Report report;
   report.residual_rms = 0.3;

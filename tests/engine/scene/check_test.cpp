@@ -113,7 +113,7 @@ TEST(CheckScene, NamesWhatIsWrongWithAPattern) {
       {"stitch_missing_panel /garments/0/pattern/stitches/0/1", [](Scene& s) { pattern(s).stitches[0].b.panel = -1; }},
       {"edge_length_range /garments/0/edge_length_mm", [](Scene& s) { s.garments[0].edge_length = 0.0005; }},
       {"edge_length_range /garments/0/edge_length_mm", [](Scene& s) { s.garments[0].edge_length = kNan; }},
-      {"too_many_vertices /garments",
+      {"too_many_vertices /garments/0",
        [](Scene& s) {
          for (Vec2& v : pattern(s).panels[0].vertices) v *= 20;
          s.garments[0].edge_length = 0.001;
