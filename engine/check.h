@@ -30,8 +30,8 @@ struct CheckOptions {
 /// warning says so. Vertices that the scene's pins hold, as they select them at the start, may be anywhere; clamps hold
 /// the planes in which the panels lie before they are sewn. How `mesh` is matched to the garments is said in
 /// mesh/match_mesh.h. report.stop_reason is "checked", and status "converged" if the residual's rms is under
-/// solver.rest_residual (0.05 where that is 0), no seam gapes by 1 mm and no cloth is 10 mm inside the body. Throws InputError: the scene's problems, and
-/// `mesh_mismatch` at "".
+/// solver.rest_residual (0.05 where that is 0), no seam gapes by 1 mm and no cloth is 10 mm inside the body. Throws
+/// InputError: the scene's problems, and `mesh_mismatch` at "".
 Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& options = {});
 
 /// Its part about forces, of a sewn cloth at its positions, which was at `start` as the drape began

@@ -12,8 +12,8 @@
 namespace toile {
 namespace {
 
-constexpr double kLongest = 2, kSmallest = 0.12;  // times the body's greatest extent, a panel and a garment
-constexpr double kLongestPanel = 3;               // [m]
+constexpr double kLongest = 2, kSmallest = 0.12;    // times the body's greatest extent, a panel and a garment
+constexpr double kLongestPanel = 3;                 // [m]
 constexpr double kSlightlyOff = 1.2, kFarOff = 10;  // in space over flat
 
 Vec3 extent_of(const Cloth& cloth, const std::function<bool(int)>& counts) {

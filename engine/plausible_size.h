@@ -10,15 +10,15 @@
 
 namespace toile {
 
-/// Sewn garments whose size beside the body says that they were drawn in another unit than their document names. A panel
-/// over 3 m that is over twice as long as the body is refused, since sewing it would only take long (throws InputError
-/// `implausible_size` at the garment); of a panel over twice as long as a small body, and of a tiny garment, a warning is
-/// left in the cloth. Bodies without end (planes) tell nothing.
+/// Sewn garments whose size beside the body says that they were drawn in another unit than their document names. A
+/// panel over 3 m that is over twice as long as the body is refused, since sewing it would only take long (throws
+/// InputError `implausible_size` at the garment); of a panel over twice as long as a small body, and of a tiny garment,
+/// a warning is left in the cloth. Bodies without end (planes) tell nothing.
 void check_size(Cloth& apart, const BodyField& body);
 
-/// Of garments given as meshes: how large they are in space beside their flat pattern, the root of the areas' ratio. Ten
-/// times off either way is refused (throws InputError `implausible_uv_unit` at the garment's mesh); of what is off by
-/// over a fifth a warning is left in the cloth, since it starts as much stretched or compressed.
+/// Of garments given as meshes: how large they are in space beside their flat pattern, the root of the areas' ratio.
+/// Ten times off either way is refused (throws InputError `implausible_uv_unit` at the garment's mesh); of what is off
+/// by over a fifth a warning is left in the cloth, since it starts as much stretched or compressed.
 void check_flat_size(Cloth& apart, const std::vector<char>& given_as_mesh);
 
 /// Throws InputError `empty_garment` where sewing leaves no triangle of a garment: then its edges are too long for it.

@@ -20,8 +20,7 @@ const FrictionMemory::Stretched* FrictionMemory::of(const Contact& contact) cons
   const Stretched* best = nullptr;
   double alike = kAlike;
   for (int side = 0; side < Contact::most_sides; ++side) {
-    const Stretched* stretched =
-        at((contact.key & ~kAllSides) + static_cast<std::uint64_t>(side) * Contact::side_key);
+    const Stretched* stretched = at((contact.key & ~kAllSides) + static_cast<std::uint64_t>(side) * Contact::side_key);
     if (!stretched || stretched->normal.dot(contact.normal) <= alike) continue;
     best = stretched;
     alike = stretched->normal.dot(contact.normal);

@@ -64,6 +64,7 @@ CantileverResult bend_over(const Cantilever& experiment, int threads, Monitor& m
       result.report.bending_length = 0.5 * overhang;
       return result;
     }
+    if (overhang == (result.report.angle < kPeirceAngle ? kLongest : kShortest)) break;
     const double now = std::log(overhang);
     if (trial > 0 && std::abs(now - last_log) > 1e-9)
       slope = std::clamp((result.report.angle - last_angle) / (now - last_log), 0.2, 3.0);

@@ -157,9 +157,10 @@ void warn_of_undetermined(FabricFit& fit) {
   for (const FitPart& part : fit.parts)
     for (const ParameterEstimate& e : part.parameters)
       if (!e.determined)
-        fit.warnings.push_back("not_determined: the measurements hardly depend on " + e.pointer +
+        fit.warnings.push_back("not_determined: " + e.pointer +
                                (e.strain ? " at " + std::to_string(100 * *e.strain) + " % strain" : "") +
-                               "; its value is no better than a guess.");
+                               " is no better than a guess: the measurements hardly depend on it, contradict one "
+                               "another, or draw it to the end of what is possible.");
 }
 
 }  // namespace

@@ -10,9 +10,12 @@ namespace toile {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kCells = 60;      // edges along the strip
-constexpr double kOutwards = 0.3;  // share of a side that turns outwards at the start
-constexpr int kParts = 4000;       // of a side, where it is integrated
+constexpr double kCells = 60;           // edges along the strip
+constexpr double kOutwards = 0.3;       // share of a side that turns outwards at the start
+constexpr int kParts = 4000;            // of a side, where it is integrated
+constexpr double kSqueezed = 0.01;      // share of the area beyond the model
+constexpr double kWeightless = 0.4243;  // height over length [Peirce 1930]
+constexpr double kTellable = 0.005;     // of the height, what a laboratory reads it to
 
 /// Points of one side from the clamp to the bottom: turning outwards by `turn` over the first part and then back until
 /// it runs inwards level.
@@ -62,6 +65,15 @@ PearLoopResult hang_loop(const PearLoop& experiment, int threads, Monitor& monit
   PearLoopResult result;
   result.drape = drape_specimen(scene, monitor);
   for (const Vec3& x : result.drape.cloth.x) result.report.height = std::max(result.report.height, -x.y());
+  Report& report = result.drape.report;
+  if (report.status == "converged" && report.compressed_share > kSqueezed) {
+    report.status = "not_converged";
+    report.stop_reason = "compressed_beyond_model";
+  }
+  if (report.status == "converged" && result.report.height < kWeightless * (1 + kTellable) * experiment.length)
+    report.warnings.emplace_back(
+        "stiff_loop: the height is within half a per cent of a weightless loop's (0.4243 of the length): it tells "
+        "nothing of this stiffness; a longer strip would");
   return result;
 }
 

@@ -18,8 +18,6 @@ namespace {
 template <class T>
 using PerEdge = std::vector<std::vector<T>>;
 
-constexpr double kShortestEdge = 1e-6;  // [m]; shorter is a point drawn twice
-
 void check_side(const Pattern& pattern, const PatternStitch::Side& side, const std::string& pointer) {
   if (side.panel < 0 || side.panel >= static_cast<int>(pattern.panels.size())) {
     throw InputError(pointer, "stitch_missing_panel", "the stitch names a panel that the pattern does not have");

@@ -19,6 +19,8 @@ class ObjReader {
   explicit ObjReader(const std::string& pointer) : pointer_(pointer) {}
 
   TriangleMesh read(std::string_view text) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
     while (!text.empty()) {
       const std::size_t end = text.find('\n');
       ++line_;

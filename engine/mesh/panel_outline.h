@@ -15,6 +15,7 @@ Vec2 edge_point(const Panel& panel, int edge, double parameter);
 
 /// Arc length [m]; closed form for lines and arcs, adaptive Gauss quadrature to 1e-10 relative for Béziers.
 double edge_length(const Panel& panel, int edge);
+inline constexpr double kShortestEdge = 2e-5;  ///< [m]; a shorter one is a point drawn twice
 
 /// `segments` + 1 points from start to end, uniform in arc length; the first and last are the panel's own vertices.
 std::vector<Vec2> sample_edge(const Panel& panel, int edge, int segments);

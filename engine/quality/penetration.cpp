@@ -7,29 +7,72 @@ namespace toile {
 
 namespace {
 
-constexpr int kFine = 8;  ///< even, so that edge midpoints are among the samples
+constexpr double kSpacing = 1e-3;        // [m] of samples
+constexpr int kFewest = 8, kMost = 256;  // samples along an edge; the fewest even, so that midpoints are among them
+constexpr double kExact = 1e-6;          // [m]
+
+struct Corners {
+  Vec3 a, b, c;
+  Vec3 at(const Vec3& weights) const { return weights.x() * a + weights.y() * b + weights.z() * c; }
+};
+
+/// Walks on the triangle from a sample to a deeper one while there is one, by ever shorter steps from `step` [m] on.
+void improve(const BodyField& body, const Corners& triangle, double longest, double step, Vec3 weights,
+             Penetration& deepest) {
+  for (double stride = step / longest; stride * longest > kExact; stride /= 2) {
+    for (bool better = true; better;) {
+      better = false;
+      for (int from = 0; from < 3; ++from)
+        for (int to = 0; to < 3; ++to) {
+          Vec3 tried = weights;
+          const double moved = std::min(stride, tried[from]);
+          tried[from] -= moved;
+          tried[to] += moved;
+          const Vec3 p = triangle.at(tried);
+          const double depth = -body.distance(p);
+          if (!(depth > deepest.depth + 1e-3 * kExact)) continue;
+          deepest.depth = depth;
+          deepest.point = p;
+          weights = tried;
+          better = true;
+        }
+    }
+  }
+}
 
 }  // namespace
 
 Penetration deepest_penetration(const BodyField& body, const Positions& x, const std::vector<Triangle>& triangles) {
   Penetration deepest;
-  const auto consider = [&](const Vec3& p, int triangle) {
-    const double depth = -body.distance(p);
-    if (depth > deepest.depth) deepest = {depth, p, triangle};
-  };
-  for (size_t t = 0; t < triangles.size(); ++t) {
-    const Vec3 &a = x[triangles[t][0]], &b = x[triangles[t][1]], &c = x[triangles[t][2]];
-    const Vec3 center = (a + b + c) / 3;
-    const double reach = std::max({(a - center).norm(), (b - center).norm(), (c - center).norm()});
-    // A distance changes by no more than the way walked: no point of this triangle can be inside.
-    if (body.distance(center) > reach) continue;
-    const int index = static_cast<int>(t);
-    consider(center, index);
-    for (int i = 0; i <= kFine; ++i) {
-      for (int j = 0; i + j <= kFine; ++j) {
-        consider((i * a + j * b + (kFine - i - j) * c) / kFine, index);
-      }
-    }
+  Vec3 weights = Vec3::Zero();
+  double spacing = 0, edge = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Corners corners{x[triangles[t][0]], x[triangles[t][1]], x[triangles[t][2]]};
+    const Vec3 center = corners.at(Vec3::Constant(1.0 / 3));
+    const double reach =
+        std::max({(corners.a - center).norm(), (corners.b - center).norm(), (corners.c - center).norm()});
+    // A distance changes by no more than the way walked: no point of this triangle can be as deep.
+    if (body.distance(center) + deepest.depth > reach) continue;
+    const double longest =
+        std::max({(corners.a - corners.b).norm(), (corners.b - corners.c).norm(), (corners.c - corners.a).norm()});
+    const int n = std::clamp(static_cast<int>(std::ceil(longest / kSpacing)), kFewest, kMost);
+    const auto consider = [&](const Vec3& w) {
+      const Vec3 p = corners.at(w);
+      const double depth = -body.distance(p);
+      if (!(depth > deepest.depth)) return;
+      deepest = {depth, p, static_cast<int>(t)};
+      weights = w;
+      spacing = longest / n;
+      edge = longest;
+    };
+    consider(Vec3::Constant(1.0 / 3));
+    const double share = 1.0 / n;
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n - i; ++j) consider(Vec3(share * i, share * j, share * (n - i - j)));
+  }
+  if (deepest.triangle >= 0) {
+    const Triangle& t = triangles[deepest.triangle];
+    improve(body, {x[t[0]], x[t[1]], x[t[2]]}, edge, spacing, weights, deepest);
   }
   return deepest;
 }

@@ -133,8 +133,7 @@ void add_warnings(const Cloth& cloth, const std::vector<double>& contact_distanc
   warn_of_unrest(report);
 }
 
-void warn_of_far_garments(const Cloth& cloth, const BodyField& body, const std::vector<int>& attached,
-                          Report& report) {
+void warn_of_far_garments(const Cloth& cloth, const BodyField& body, const std::vector<int>& attached, Report& report) {
   const int garments = cloth.vertex_garment.empty() ? 0 : 1 + cloth.vertex_garment.back();
   std::vector<double> nearest(garments, std::numeric_limits<double>::infinity()), held(garments, 0.0);
   std::vector<int> count(garments, 0);
@@ -148,13 +147,13 @@ void warn_of_far_garments(const Cloth& cloth, const BodyField& body, const std::
   }
   for (int g = 0; g < garments; ++g) {
     if (count[g] > 0 && held[g] > kFarHeld * count[g])
-      report.warnings.push_back(
-          sentence("far from the body: what is attached of garment %d is held over %.0f mm away from it on the average: "
-                   "does the garment's place fit the body's, with y up and the feet at y = 0?",
-                   g, std::floor(1e3 * held[g] / count[g])));
-    else if (nearest[g] > kFarOff)
       report.warnings.push_back(sentence(
-          "far from the body: garment %d comes nowhere nearer to it than %.0f mm", g, std::floor(1e3 * nearest[g])));
+          "far from the body: what is attached of garment %d is held over %.0f mm away from it on the average: "
+          "does the garment's place fit the body's, with y up and the feet at y = 0?",
+          g, std::floor(1e3 * held[g] / count[g])));
+    else if (nearest[g] > kFarOff)
+      report.warnings.push_back(sentence("far from the body: garment %d comes nowhere nearer to it than %.0f mm", g,
+                                         std::floor(1e3 * nearest[g])));
   }
 }
 

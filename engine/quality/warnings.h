@@ -11,8 +11,8 @@ namespace toile {
 
 /// Appends to report.warnings what the report's numbers and the cloth give cause to: over-stretched, compressed beyond
 /// the model, through itself, inside the body, not at rest, layers that are thin or nearer than they should be, a mesh
-/// too coarse for its fabric. `contact_distance` is where cloth repels cloth, per vertex [m], and `asked_distance` where
-/// it was asked to, 0: nothing was asked.
+/// too coarse for its fabric. `contact_distance` is where cloth repels cloth, per vertex [m], and `asked_distance`
+/// where it was asked to, 0: nothing was asked.
 void add_warnings(const Cloth& cloth, const std::vector<double>& contact_distance, double asked_distance,
                   Report& report);
 

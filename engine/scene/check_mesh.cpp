@@ -41,6 +41,7 @@ void check_garment_mesh(const GarmentMesh& shape, const std::string& pointer, st
   }
   for (const auto& [a, b] : shape.seams) {
     if (outside(a) || outside(b)) return report("vertex_out_of_range", "A seam names a vertex that is not there.");
+    if (a == b) return report("seam_joins_itself", "A seam joins vertex " + std::to_string(a) + " to itself.");
   }
   for (const TriangleMesh::Stitch& s : mesh.stitches) {
     if (outside(s.vertex) || outside(s.from) || outside(s.to) || !(s.t >= 0 && s.t <= 1)) {

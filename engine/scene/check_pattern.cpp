@@ -11,7 +11,6 @@
 namespace toile {
 namespace {
 
-constexpr double kShortestEdge = 1e-6;  // [m]
 constexpr double kCellsAVertex = 10;    // of a meshing lattice, that cost as much as a vertex
 constexpr double kLargestLength = 1e4;  // [m]; beyond, a number is an accident
 constexpr int kCurveSamples = 32;       // segments a curved edge is looked at with
@@ -87,7 +86,8 @@ double check_outline(const Panel& panel, double h, std::size_t garment, std::vec
     const double length = edge_length(panel, static_cast<int>(e));
     perimeter += length;
     if (!(length > kShortestEdge)) {
-      problems.push_back({edge_pointer(garment, panel.name, e), "zero_length_edge", "The edge has no length."});
+      problems.push_back({edge_pointer(garment, panel.name, e), "zero_length_edge",
+                          "The edge is shorter than 0.02 mm: no triangle can stand on it."});
       continue;
     }
     const bool straight = std::holds_alternative<StraightEdge>(panel.edges[e].curve);

@@ -111,7 +111,7 @@ void check_fabric(const Fabric& fabric, const std::string& pointer, std::vector<
               rest_is(fabric.shear_stress, 2 * stretch.bias),
           "A stress curve must rise, and the stretch stiffness be its tangent at rest.");
   require(within(bending.warp, 0, 10) && within(bending.weft, 0, 10) && within(bending.bias, 0, 10),
-          "The bending stiffnesses must not be negative.");
+          "The bending stiffnesses must be 0 to 10 N m.");
   require(bending.bias >= (1 - 1e-9) * least_bias_bending(bending.warp, bending.weft),
           "No cloth bends so easily on the bias beside its warp and weft: at least (sqrt(warp) - sqrt(weft))^2 / 4.");
   const Directional &softening = fabric.bending_softening, &loop = fabric.bending_hysteresis;

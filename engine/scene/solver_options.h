@@ -11,14 +11,14 @@ struct SolverOptions {
   /// g‖); 0: never, as the seed. An absolute tolerance alone lets a light or stiff mesh gain energy step by step, and
   /// what slides disregard its forces.
   double newton_momentum_fraction = 0.05;
-  double cg_tolerance = 1e-2;           ///< tau_cg: relative residual
-  int newton_iterations = 5;            ///< I_n
-  int line_search_iterations = 5;       ///< I_ls, lengths tried: 1, 1/2, 1/4, …; twice as many after the first iteration
-  int cg_iterations = 500;              ///< at most per linear solve
-  double splitting_factor = 0.75;       ///< omega
-  int steps_before_growth = 5;          ///< I_s successful steps before h grows
-  double air_drag = 5.0;                ///< alpha [1/s]
-  double relaxation_time = 0.1;         ///< window of the initial relaxation [s]; 0: none
+  double cg_tolerance = 1e-2;      ///< tau_cg: relative residual
+  int newton_iterations = 5;       ///< I_n
+  int line_search_iterations = 5;  ///< I_ls, lengths tried: 1, 1/2, 1/4, …; twice as many after the first iteration
+  int cg_iterations = 500;         ///< at most per linear solve
+  double splitting_factor = 0.75;  ///< omega
+  int steps_before_growth = 5;     ///< I_s successful steps before h grows
+  double air_drag = 5.0;           ///< alpha [1/s]
+  double relaxation_time = 0.1;    ///< window of the initial relaxation [s]; 0: none
   double relaxation_stiffness = 1e-2;   ///< factor on fabric stiffness at its start, rising to 1 linearly
   double relaxation_step_divisor = 16;  ///< h starts at h_max over this
   double weight_ramp_time = 0;          ///< weight grows linearly from none to whole in this time [s]

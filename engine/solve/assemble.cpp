@@ -25,7 +25,7 @@ constexpr double kFallen = 0.98;       // progress
 constexpr double kFootStep = 0.01;     // [m] between the heights where a foot is looked for
 constexpr double kSlitGap = 2e-4;      // [m]
 constexpr double kTouchGap = 1e-5;  // [m] the same of cloth that is not sewn, whose layers may be as near as they like
-constexpr double kPressedGap = 1e-9;   // [m] folding has closed what is nearer
+constexpr double kPressedGap = 1e-9;  // [m] folding has closed what is nearer
 
 /// Whether a foot is over the point. What is less deep in one leaves it by the nearest way, which is upwards.
 bool under_foot(const BodyFields& fields, const Vec3& point) {

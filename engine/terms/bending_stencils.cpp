@@ -1,7 +1,7 @@
 // How a cloth's triangles become stencils of the bending term.
 
-#include "engine/terms/bending.h"
 #include "engine/geometry/flat_triangle.h"
+#include "engine/terms/bending.h"
 #include "engine/terms/bending_balance.h"
 #include "engine/terms/curvature_fit.h"
 

@@ -37,8 +37,8 @@ struct RefinementScene {
   std::string name;
   Scene scene;
 
-  /// The same scene on a mesh of this edge length [m], brought to rest as well as the mesh is to show: what hangs freely
-  /// is a pendulum, off by a hundredth of its length where a hundredth of its weight is not balanced.
+  /// The same scene on a mesh of this edge length [m], brought to rest as well as the mesh is to show: what hangs
+  /// freely is a pendulum, off by a hundredth of its length where a hundredth of its weight is not balanced.
   Scene at(double edge_length) const {
     Scene finer = scene;
     for (Garment& garment : finer.garments) garment.edge_length = edge_length;

@@ -6,6 +6,8 @@
 #include "tests/validation/pear_elastica.h"
 #include "tests/validation/silent.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 using namespace toile;
@@ -15,6 +17,24 @@ TEST(PearLoop, ElasticaIsPeircesWithoutWeight) {
   const double ours = PearElastica(0).height();
   std::printf("weightless: height %.4f of the length, Peirce 1930: 0.4243\n", ours);
   EXPECT_NEAR(ours, 0.4243, 5e-4);
+}
+
+TEST(PearLoop, SaysWhereItTellsNothingOfTheStiffness) {
+  Silent monitor;
+  const auto report_at = [&](double weight, double stretch) {
+    Fabric fabric = isotropic_fabric(0.2, stretch, 0.5 * stretch, 0, 0.2 * kGravity * std::pow(0.15, 3) / weight);
+    fabric.thickness = 2e-5;
+    return hang_loop({fabric, Direction::warp, 0.15, 0.015, 0.005}, 1, monitor).drape.report;
+  };
+  const auto says = [](const Report& report) {
+    return std::any_of(report.warnings.begin(), report.warnings.end(),
+                       [](const std::string& w) { return w.rfind("stiff_loop", 0) == 0; });
+  };
+  EXPECT_TRUE(says(report_at(5, 1000)));
+  EXPECT_FALSE(says(report_at(300, 1000)));
+  // Bending so stiff beside the membrane that the strip would rather shrink.
+  const Report squeezed = report_at(6.6, 10);
+  EXPECT_NE(squeezed.status, "converged") << squeezed.compressed_share;
 }
 
 TEST(PearLoop, HeightIsTheElasticas) {

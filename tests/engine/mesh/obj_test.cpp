@@ -48,6 +48,12 @@ TEST(ReadObj, NumbersGroupsAndStitches) {
   EXPECT_TRUE(mesh.corner_uv.empty());
 }
 
+TEST(ReadObj, AByteOrderMarkIsNoPartOfTheFirstLine) {
+  const TriangleMesh mesh = read_obj("\xEF\xBB\xBFv 1 2 3\nv 4 5 6\nv 7 8 9\nf 1 2 3\n");
+  ASSERT_EQ(mesh.vertices.size(), 3u);
+  EXPECT_EQ(mesh.vertices[0], Vec3(1, 2, 3));
+}
+
 TEST(ReadObj, UvsOnlyWhereEveryFaceHasThem) {
   EXPECT_TRUE(read_obj(kQuad + "f 1/1 2/2 3/3\nf 1 3 4\n").corner_uv.empty());
   EXPECT_TRUE(read_obj(kQuad + "f 1 2 3\nf 1/1 3/3 4/4\n").corner_uv.empty());

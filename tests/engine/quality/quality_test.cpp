@@ -76,6 +76,15 @@ TEST(Penetration, FindsTheDeepestPointBetweenVertices) {
   EXPECT_NEAR((found.point - Vec3(0, 0, 0.09)).norm(), 0, 1e-12);
 }
 
+TEST(Penetration, FindsTheDeepestPointOfASliverToTheMicrometre) {
+  const BodyField ball = make_body_field(Body{SphereBody{Vec3(0.0123, 0.0007, 0), 0.1}, 0.3}, 0.015);
+  const Positions x{Vec3(-0.31, 0, 0.0968), Vec3(0.2, 0.0004, 0.0968), Vec3(0.21, 0.003, 0.0968)};
+  const Penetration found = deepest_penetration(ball, x, {{0, 1, 2}});
+  // The ball's middle is over the triangle's inside.
+  EXPECT_NEAR(found.depth, 0.0032, 1e-6);
+  EXPECT_LT((found.point - Vec3(0.0123, 0.0007, 0.0968)).norm(), 5e-4);
+}
+
 TEST(Penetration, NothingInsideIsZero) {
   const BodyField ball = make_body_field(Body{SphereBody{Vec3::Zero(), 0.1}, 0.3}, 0.015);
   const Positions x{Vec3(-0.5, -0.3, 0.101), Vec3(0.5, -0.3, 0.101), Vec3(0.0, 0.6, 0.101)};

@@ -44,8 +44,8 @@ TEST(AddWarnings, OfLayersNearerThanTheyShouldBe) {
   EXPECT_THAT(warnings(report, 1.3e-3, 3e-3), IsEmpty()) << "no layers";
   report.contacts.cloth = 3;
   EXPECT_THAT(warnings(report, 3e-3, 3e-3), IsEmpty());
-  EXPECT_THAT(warnings(report, 1.3e-3, 3e-3),
-              ElementsAre(testing::AllOf(HasSubstr("near layers: on 100 %"), HasSubstr("3.0 mm"), HasSubstr("1.3 mm"))));
+  EXPECT_THAT(warnings(report, 1.3e-3, 3e-3), ElementsAre(testing::AllOf(HasSubstr("near layers: on 100 %"),
+                                                                         HasSubstr("3.0 mm"), HasSubstr("1.3 mm"))));
   Cloth fleece = equilateral_sheet(5, 5, 0.01, suiting());
   fleece.fabrics[0].thickness = 2.2e-3;
   EXPECT_THAT(warnings_of(fleece, report, 1.3e-3), ElementsAre(HasSubstr("2.2 mm")));

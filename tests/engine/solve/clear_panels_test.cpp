@@ -141,8 +141,7 @@ TEST(OpenSlits, EdgesThatLieOnOneAnotherComeApart) {
 TEST(RefuseCoincident, LayersInOneAndTheSamePlace) {
   Scene scene;
   const Panel square = rectangle_panel("square", 0.1, 0.1);
-  for (const char* name : {"first", "second"})
-    scene.garments.push_back(garment_of(Pattern{{square}, {}}, 0.02, name));
+  for (const char* name : {"first", "second"}) scene.garments.push_back(garment_of(Pattern{{square}, {}}, 0.02, name));
   try {
     refuse_coincident(build_cloth(scene));
     FAIL();
