@@ -19,7 +19,7 @@ constexpr double kThinLayer = 0.1;         // contact distance over edge length;
 constexpr double kThinShare = 0.01;        // of the area
 constexpr double kCapped = 0.95;           // contact distance over what was wanted
 constexpr double kLongEdge = 1.5;          // edge over the fabric's bending length
-constexpr double kLongShare = 0.01;        // of the area
+constexpr double kLongShare = 0.5;         // of the area
 constexpr double kFarOff = 0.02;           // [m] from the body, all of a garment
 constexpr double kFarHeld = 0.03;          // [m] from the body, what is attached to it, in the mean
 
@@ -98,20 +98,21 @@ void warn_of_capped_layers(const Cloth& cloth, const std::vector<double>& contac
 
 /// Edges that are long beside (D/(ρ g))^⅓ can't form the folds in which such cloth hangs: it stands off like a board.
 void warn_of_long_edges(const Cloth& cloth, Report& report) {
-  double longest = 0, length = 0, long_area = 0, total = 0;
+  double edges = 0, lengths = 0, long_area = 0, total = 0;
   for (std::size_t t = 0; t < cloth.triangles.size(); ++t) {
     const Fabric& fabric = cloth.fabrics[cloth.panels[cloth.triangle_panel[t]].fabric];
-    const double area = flat_area(cloth.flat[t]), edge = mean_edge(cloth.flat[t]), able = bending_length(fabric);
+    const double area = flat_area(cloth.flat[t]), edge = mean_edge(cloth.flat[t]), length = bending_length(fabric);
     total += area;
-    if (edge <= kLongEdge * able) continue;
+    if (edge <= kLongEdge * length) continue;
     long_area += area;
-    if (edge > longest) longest = edge, length = able;
+    edges += area * edge;
+    lengths += area * length;
   }
   if (long_area > kLongShare * total)
     report.warnings.push_back(
-        sentence("coarse mesh: edges up to %.1f mm on a fabric of %.1f mm bending length can't fold as it would: "
-                 "choose a smaller edge_length_mm",
-                 1e3 * longest, 1e3 * length));
+        sentence("coarse mesh: edges of %.1f mm on a fabric of %.1f mm bending length can't fold as it would: choose a "
+                 "smaller edge_length_mm",
+                 1e3 * edges / long_area, 1e3 * lengths / long_area));
 }
 
 void warn_of_unrest(Report& report) {

@@ -1,6 +1,6 @@
 #pragma once
 // The suitings of references.json (fabrics_measured) whose real drape coefficient is known, as sheets: elastic by the
-// measured bending rigidity, and with what is known of the bending of such cloths.
+// measured bending rigidity, elastic by that at small curvature, and with what is known of the bending of such cloths.
 
 #include "engine/scene/fabric.h"
 #include "tests/validation/references.h"
@@ -47,22 +47,31 @@ inline constexpr double kKesCurvature = 100;  ///< middle of those [1/m]
 /// Hand Evaluation, 1980, whose print was not at hand to check it). It was not measured on these cloths.
 inline constexpr double kHysteresisOverRigidity = 45.8;  ///< [1/m]
 
-/// The same cloth as it softens and rubs: −K2/K1 is the median of the 618 fabrics, direction by direction; K1 is such
-/// that the moment has the measured slope where KES reads it; friction by the ratio above. Nothing is fitted to a
-/// drape.
-inline Fabric softening_and_rubbing(const Fabric& elastic) {
-  Fabric f = elastic;
-  const auto set = [&](const char* direction, double Directional::*along) {
-    const double ratio =
-        -1e-3 *
-        reference(std::string("/fabrics_618/K2_over_K1_mm/").append(direction).append("/2"));  // the 50th percentile
-    f.bending_softening.*along = ratio;
-    f.bending_stiffness.*along = elastic.bending_stiffness.*along / (1 - 2 * ratio * kKesCurvature);
-    f.bending_hysteresis.*along = kHysteresisOverRigidity * elastic.bending_stiffness.*along;
+/// −K2/K1 of the moment K1 κ + K2 κ²: the median of the 618 fabrics, direction by direction [m].
+inline Directional median_softening() {
+  const auto median = [](const char* direction) {
+    return -1e-3 * reference(std::string("/fabrics_618/K2_over_K1_mm/").append(direction).append("/2"));
   };
-  set("warp", &Directional::warp);
-  set("weft", &Directional::weft);
-  set("bias", &Directional::bias);
+  return {median("warp"), median("weft"), median("bias")};
+}
+
+/// The elastic sheet of the rigidity that the cloth has where a drape bends it: KES reads B at the curvature above, and
+/// half of a hanging specimen is bent by less than 45/m, three quarters by less than 75/m. K1 is such that the moment
+/// has the measured slope where KES reads it.
+inline Fabric elastic_at_small_curvature(const Fabric& elastic) {
+  Fabric f = elastic;
+  const Directional softening = median_softening();
+  for (double Directional::*along : {&Directional::warp, &Directional::weft, &Directional::bias})
+    f.bending_stiffness.*along /= 1 - 2 * softening.*along * kKesCurvature;
+  return f;
+}
+
+/// The same cloth as it softens from there, and rubs by the ratio above. Nothing is fitted to a drape.
+inline Fabric softening_and_rubbing(const Fabric& elastic) {
+  Fabric f = elastic_at_small_curvature(elastic);
+  f.bending_softening = median_softening();
+  for (double Directional::*along : {&Directional::warp, &Directional::weft, &Directional::bias})
+    f.bending_hysteresis.*along = kHysteresisOverRigidity * elastic.bending_stiffness.*along;
   return f;
 }
 

@@ -33,8 +33,8 @@ void expect_estimate_within_a_factor_of_two(const RefinementScene& study, const 
     const double distance =
         surface_distance(coarse.cloth.x, coarse.cloth.triangles, finest.cloth.x, finest.cloth.triangles).mean;
     const double estimate = coarse.report.discretisation_error;
-    std::cout << study.name << ", " << 1e3 * h << " mm: distance to " << 1e3 * finest_length << " mm "
-              << 1e3 * distance << " mm, estimate " << 1e3 * estimate << " mm, ratio " << estimate / distance;
+    std::cout << study.name << ", " << 1e3 * h << " mm: distance to " << 1e3 * finest_length << " mm " << 1e3 * distance
+              << " mm, estimate " << 1e3 * estimate << " mm, ratio " << estimate / distance;
     if (before > 0) std::cout << ", order " << std::log(before / distance) / std::log(length_before / h);
     std::cout << "\n";
     EXPECT_GT(estimate, 0.5 * distance);
@@ -62,6 +62,4 @@ TEST(RefinementReference, Cone) {
   expect_estimate_within_a_factor_of_two(cone_refinement(), {0.020, 0.014, 0.010}, 0.007);
 }
 
-TEST(RefinementReference, Body) {
-  expect_estimate_within_a_factor_of_two(body_refinement(), {0.020, 0.014}, 0.010);
-}
+TEST(RefinementReference, Body) { expect_estimate_within_a_factor_of_two(body_refinement(), {0.020, 0.014}, 0.010); }

@@ -1,5 +1,5 @@
 // How many garments drape soundly: the public GarmentCode patterns, each as it is and varied in mesh, size, fabric and
-// body, and pairs of them in layers.
+// body, and pairs of them in layers; the last three variations are of measured fabrics on a fine mesh.
 //   study_garments [garment] [variation]     only those whose names are or else contain this
 // A drape is sound when it is sewn, at rest, crosses nothing and is less than 2 mm inside the body. Needs
 // ../shared/data.
@@ -64,6 +64,9 @@ const std::vector<Variation> kVariations = {
     {"jersey", 15, 1, "jersey"},
     {"silk satin", 15, 1, "silk_satin"},
     {"another body", 15, 1, "suiting_wool_blend_twill", "f_smpl_average_A40"},
+    {"10 mm wool", 10},
+    {"10 mm polyester", 10, 1, "suiting_polyester_plain"},
+    {"10 mm cotton", 10, 1, "suiting_cotton_polyester_twill"},
 };
 
 std::string bytes_of(const std::string& path) {
