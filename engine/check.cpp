@@ -4,6 +4,7 @@
 #include "engine/mesh/match_mesh.h"
 #include "engine/mesh/sewing.h"
 #include "engine/parallel/thread_limit.h"
+#include "engine/plausible_size.h"
 #include "engine/quality/admissible_contact.h"
 #include "engine/quality/admissible_forces.h"
 #include "engine/quality/measure.h"
@@ -71,6 +72,7 @@ Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& o
   const ThreadLimit threads(scene.solver.threads);
   check_scene(scene);
   Cloth apart = build_cloth(scene);
+  check_flat_size(apart, given_as_mesh(scene));
   warn_of_mesh_bending(apart, given_as_mesh(scene));
   MatchedCloth matched = match_mesh(apart, mesh);
   Cloth at_start = apart;
@@ -99,13 +101,13 @@ Report judge(const Scene& scene, const TriangleMesh& mesh, const CheckOptions& o
         "trims");
   const std::vector<double> contact_distance = measure_equilibrium(matched.cloth, at_start.x, still, options, report);
   measure_geometry(matched.cloth, still.body, report);
-  add_warnings(matched.cloth, contact_distance, scene.solver.contact_distance, report);
-  if (body) warn_of_far_garments(matched.cloth, *body, attached, report);
   const double at_rest = scene.solver.rest_residual > 0 ? scene.solver.rest_residual : kAtRest;
   const bool converged =
       report.residual_rms < at_rest && report.seam_gap_max < kClosedSeam && report.penetration_max <= kWrongSide;
   report.status = converged ? "converged" : "not_converged";
   report.stop_reason = "checked";
+  add_warnings(matched.cloth, contact_distance, scene.solver, report);
+  if (body) warn_of_far_garments(matched.cloth, *body, attached, near_body(scene, matched.cloth), report);
   return report;
 }
 

@@ -205,8 +205,9 @@ Drape drape(const Scene& scene, Monitor& monitor) {
   }
   stage("measure", kDraped);
   measure_geometry(result.cloth, bodies.fields().whole, report);
-  add_warnings(result.cloth, contact_distance, scene.solver.contact_distance, report);
-  if (bodies.whole) warn_of_far_garments(result.cloth, *bodies.whole, assembly.attached, report);
+  add_warnings(result.cloth, contact_distance, scene.solver, report);
+  if (bodies.whole)
+    warn_of_far_garments(result.cloth, *bodies.whole, assembly.attached, near_body(scene, result.cloth), report);
   if (report.status == "converged" && report.penetration_max > kWrongSide) {
     report.status = "not_converged";
     report.stop_reason = "inside_body";

@@ -27,7 +27,8 @@ struct Drape {
 
 /// Assembles (panels meshed, pushed out of the body, sewn) and drapes (backward-Euler Newton to rest).
 /// Throws InputError for input that can't be simulated and Cancelled when the monitor says so. A drape that did not
-/// reach rest, or whose seams did not close, returns with report.status saying so; no NaN is ever returned.
+/// reach rest, whose seams did not close, or that is over 10 mm inside the body, returns with report.status saying so;
+/// no NaN is ever returned.
 /// Deterministic: the same scene gives the same bytes on any number of threads. Not to be called twice at once with
 /// different solver.threads (the limit on threads is process-wide).
 Drape drape(const Scene& scene, Monitor& monitor);

@@ -1,5 +1,6 @@
 #include "engine/plausible_size.h"
 
+#include "engine/contact/collision_mesh.h"
 #include "engine/geometry/box.h"
 #include "engine/geometry/flat_triangle.h"
 #include "engine/mesh/sewing.h"
@@ -89,11 +90,19 @@ void check_flat_size(Cloth& cloth, const std::vector<char>& given_as_mesh) {
   }
 }
 
+NearBody near_body(const Scene& scene, const Cloth& cloth) {
+  NearBody near{{}, largest_body_offset(cloth, scene.solver.body_offset)};
+  for (const Garment& garment : scene.garments)
+    near.garments.push_back(std::all_of(garment.pins.begin(), garment.pins.end(),
+                                        [](const Pin& pin) { return std::holds_alternative<PinAttached>(pin.hold); }));
+  return near;
+}
+
 void rethrow_with_sizes(const InputError& error, const std::vector<std::string>& warnings) {
   std::vector<Problem> problems = error.problems();
   for (const std::string& warning : warnings)
-    if (warning.rfind("implausible_size: ", 0) == 0)
-      problems.push_back({"/garments", "implausible_size", warning.substr(warning.find(' ') + 1)});
+    for (const std::string code : {"implausible_size", "implausible_uv_unit"})
+      if (warning.rfind(code + ": ", 0) == 0) problems.push_back({"/garments", code, warning.substr(code.size() + 2)});
   throw InputError(std::move(problems));
 }
 

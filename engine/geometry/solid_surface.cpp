@@ -11,7 +11,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <set>
 #include <tuple>
 
 namespace toile {
@@ -28,10 +27,25 @@ constexpr double kMostHoleNodes = 4e5;   ///< per hole, of the grid on which it 
 
 [[noreturn]] void not_solid(const std::string& detail) { throw InputError("/body/mesh", "body_not_solid", detail); }
 
+class UnionFind {
+ public:
+  explicit UnionFind(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int root(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(int a, int b) {
+    const int ra = root(a), rb = root(b);
+    parent_[std::max(ra, rb)] = std::min(ra, rb);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
 TriangleMesh welded(const TriangleMesh& mesh) {
   TriangleMesh result;
   std::map<std::tuple<double, double, double>, int> seen;
-  std::set<Triangle> known;
   std::vector<int> index(mesh.vertices.size());
   for (size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3& x = mesh.vertices[i];
@@ -41,34 +55,77 @@ TriangleMesh welded(const TriangleMesh& mesh) {
   }
   for (const auto& [a, b, c] : mesh.triangles) {
     const Triangle t{index[a], index[b], index[c]};
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    Triangle corners = t;
-    std::sort(corners.begin(), corners.end());
-    if (known.insert(corners).second) result.triangles.push_back(t);
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) result.triangles.push_back(t);
   }
   return result;
+}
+
+/// Of triangles with the same corners wound alike, one stays. Of two wound against each other both go: a wall between
+/// two closed parts that were put together; but one stays where a whole connected part is drawn on both sides.
+void drop_repeated(TriangleMesh& mesh) {
+  struct Named {
+    Triangle corners;  // ascending
+    int triangle;
+    bool forward;
+    auto key() const { return std::tie(corners, triangle); }
+  };
+  std::vector<Named> named;
+  UnionFind parts(mesh.vertices.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Triangle c = mesh.triangles[t];
+    parts.join(c[0], c[1]);
+    parts.join(c[0], c[2]);
+    const bool forward = (c[0] < c[1]) + (c[1] < c[2]) + (c[2] < c[0]) == 2;  // ascending, but for where it begins
+    std::sort(c.begin(), c.end());
+    named.push_back({c, static_cast<int>(t), forward});
+  }
+  std::sort(named.begin(), named.end(), [](const Named& a, const Named& b) { return a.key() < b.key(); });
+  enum Fate : char { stays, goes, paired };
+  std::vector<Fate> fate(mesh.triangles.size(), stays);
+  std::vector<char> two_sided(mesh.vertices.size(), 1);  // by the root of a part
+  for (std::size_t i = 1, first = 0; i < named.size(); ++i) {
+    if (named[i].corners != named[first].corners) {
+      first = i;
+      continue;
+    }
+    fate[named[i].triangle] = goes;
+    if (named[i].forward != named[first].forward) fate[named[first].triangle] = paired;
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (fate[t] == stays) two_sided[parts.root(mesh.triangles[t][0])] = 0;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const bool keep = fate[t] == stays || (fate[t] == paired && two_sided[parts.root(mesh.triangles[t][0])]);
+    if (keep) mesh.triangles[kept++] = mesh.triangles[t];
+  }
+  mesh.triangles.resize(kept);
 }
 
 /// Turns triangles that run along an edge the way their only neighbour there does, in each part the fewer; returns how
 /// many. A part that can't be wound alike (a Möbius strip) is left.
 int wind_alike(TriangleMesh& mesh) {
   struct Side {
-    int triangle;
+    int low, high, triangle;
     bool forward;
+    auto key() const { return std::tie(low, high, triangle); }
   };
-  std::map<std::pair<int, int>, std::vector<Side>> sides;
+  std::vector<Side> sides;
   const int count = static_cast<int>(mesh.triangles.size());
   for (int t = 0; t < count; ++t)
     for (int k = 0; k < 3; ++k) {
       const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
-      sides[{std::min(a, b), std::max(a, b)}].push_back({t, a < b});
+      sides.push_back({std::min(a, b), std::max(a, b), t, a < b});
     }
-  std::vector<std::vector<std::pair<int, bool>>> neighbours(mesh.triangles.size());  // and whether it runs against
-  for (const auto& [edge, at] : sides) {
-    if (at.size() != 2) continue;
-    const bool against = at[0].forward == at[1].forward;
-    neighbours[at[0].triangle].emplace_back(at[1].triangle, against);
-    neighbours[at[1].triangle].emplace_back(at[0].triangle, against);
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.key() < b.key(); });
+  std::vector<std::array<std::pair<int, bool>, 3>> neighbours(mesh.triangles.size());  // and whether it runs against
+  std::vector<int> found(mesh.triangles.size(), 0);
+  for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+    for (end = i; end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high;) ++end;
+    if (end - i != 2) continue;
+    const Side &one = sides[i], &other = sides[i + 1];
+    const bool against = one.forward == other.forward;
+    neighbours[one.triangle][found[one.triangle]++] = {other.triangle, against};
+    neighbours[other.triangle][found[other.triangle]++] = {one.triangle, against};
   }
   int turned = 0;
   std::vector<int> turn(mesh.triangles.size(), -1);  // unknown
@@ -78,7 +135,8 @@ int wind_alike(TriangleMesh& mesh) {
     turn[first] = 0;
     bool one_sided = false;
     for (std::size_t i = 0; i < part.size(); ++i)
-      for (const auto& [next, against] : neighbours[part[i]]) {
+      for (int n = 0; n < found[part[i]]; ++n) {
+        const auto [next, against] = neighbours[part[i]][n];
         const int wanted = against ? 1 - turn[part[i]] : turn[part[i]];
         if (turn[next] < 0) {
           turn[next] = wanted;
@@ -97,22 +155,6 @@ int wind_alike(TriangleMesh& mesh) {
   }
   return turned;
 }
-
-class UnionFind {
- public:
-  explicit UnionFind(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int a, int b) {
-    const int ra = root(a), rb = root(b);
-    parent_[std::max(ra, rb)] = std::min(ra, rb);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 /// Turns connected parts of negative volume. Volume about each part's own middle, so that a hole hardly counts.
 int orient(TriangleMesh& mesh) {
@@ -267,6 +309,7 @@ void keep_where(const Vec3& a, const Vec3& b, const Vec3& c, const TriangleCondi
 SolidSurface make_solid_surface(const TriangleMesh& mesh, double spacing) {
   SolidSurface result;
   TriangleMesh clean = welded(mesh);
+  drop_repeated(clean);
   if (clean.triangles.empty()) not_solid("The body's mesh has no triangle with an area, so it has no inside.");
   const int against = wind_alike(clean);
   if (against > 0) {

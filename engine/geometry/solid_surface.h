@@ -17,11 +17,12 @@ struct SolidSurface {
 };
 
 /// Inside is where the generalised winding number exceeds ½. Vertices at the same place are one, and so are
-/// triangles of the same corners; triangles wound against their neighbours are turned, and then connected parts with a
-/// negative volume; pieces of the surface that don't separate inside from outside (within other parts, in
-/// the overlap of a fold) are cut off to within a millimetre; holes are closed by the ½ level of the winding number.
-/// `spacing` [m] is the grid's that the surface is for. Throws InputError `body_not_solid` at /body/mesh where the
-/// holes are as large as the surface (an open sheet) or nothing separates inside from outside.
+/// triangles of the same corners wound alike; walls between parts put together go; triangles wound against their
+/// neighbours are turned, and then connected parts with a negative volume; pieces of the surface that don't separate
+/// inside from outside (within other parts, in the overlap of a fold) are cut off to within a millimetre; holes are
+/// closed by the ½ level of the winding number. `spacing` [m] is the grid's that the surface is for. Throws InputError
+/// `body_not_solid` at /body/mesh where the holes are as large as the surface (an open sheet) or nothing separates
+/// inside from outside.
 SolidSurface make_solid_surface(const TriangleMesh& mesh, double spacing);
 
 /// Where on triangles a condition holds: calls keep(a, b, c) with those triangles and parts of triangles on which

@@ -19,8 +19,8 @@ inline constexpr std::size_t kMaxMeshTriangles = 4'000'000;
 /// are not finite, indices out of range, faces with a repeated vertex, and more than the limits above.
 TriangleMesh read_obj(std::string_view text, const std::string& pointer = "");
 
-/// Positions and UVs with 9 significant digits, groups as g lines, stitches as stitch lines. read_obj() gives the same
-/// mesh back, but for groups without triangles.
+/// Positions and UVs with as many digits as tell them apart, groups as g lines, stitches as stitch lines. read_obj()
+/// gives the same mesh back, but for groups without triangles.
 std::string write_obj(const TriangleMesh& mesh);
 
 }  // namespace toile

@@ -16,8 +16,8 @@ struct Penetration {
 
 /// Deepest of the cloth's mid-surface: triangles that may be deeper than what was found (whose barycentre is no farther
 /// from there than their corners are from it) are sampled every millimetre, at eight places an edge at least and 256 at
-/// most, and the deepest sample is improved to a micrometre. So what is narrower than a millimetre may be missed. Safe
-/// to call from many threads; the same on any number of threads.
+/// most, and the deepest sample is improved to a micrometre where the body is smooth, to 0.2 mm at its sharp edges. So
+/// what is narrower than a millimetre may be missed. Safe to call from many threads; the same on any number of threads.
 Penetration deepest_penetration(const BodyField& body, const Positions& x, const std::vector<Triangle>& triangles);
 
 }  // namespace toile

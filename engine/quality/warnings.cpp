@@ -74,20 +74,24 @@ void warn_of_thin_layers(const Cloth& cloth, const std::vector<double>& contact_
                  100 * thin / total, thinnest));
 }
 
-/// Where triangles are too small for the distance that was asked for, or for the fabric's thickness.
+/// Where triangles are too small for the distance that was asked for, or for the fabric's thickness (the least where
+/// several meet).
 void warn_of_capped_layers(const Cloth& cloth, const std::vector<double>& contact_distance, double asked,
                            Report& report) {
   if (report.contacts.cloth == 0 || contact_distance.empty()) return;
+  std::vector<double> wanted(cloth.x.size(), asked > 0 ? asked : std::numeric_limits<double>::infinity());
+  for (std::size_t t = 0; asked <= 0 && t < cloth.triangles.size(); ++t)
+    for (int v : cloth.triangles[t])
+      wanted[v] = std::min(wanted[v], cloth.fabrics[cloth.panels[cloth.triangle_panel[t]].fabric].thickness);
   double capped = 0, total = 0, least = 1, wanted_there = 0;
   for (std::size_t t = 0; t < cloth.triangles.size(); ++t) {
-    const double area = flat_area(cloth.flat[t]);
-    const double wanted = asked > 0 ? asked : cloth.fabrics[cloth.panels[cloth.triangle_panel[t]].fabric].thickness;
-    double distance = contact_distance[cloth.triangles[t][0]];
-    for (int v : cloth.triangles[t]) distance = std::min(distance, contact_distance[v]);
-    total += area;
-    if (distance >= kCapped * wanted) continue;
-    capped += area;
-    if (distance < least) least = distance, wanted_there = wanted;
+    const double share = flat_area(cloth.flat[t]) / 3;
+    for (int v : cloth.triangles[t]) {
+      total += share;
+      if (contact_distance[v] >= kCapped * wanted[v]) continue;
+      capped += share;
+      if (contact_distance[v] < least) least = contact_distance[v], wanted_there = wanted[v];
+    }
   }
   if (capped > kThinShare * total)
     report.warnings.push_back(
@@ -103,15 +107,15 @@ void warn_of_long_edges(const Cloth& cloth, Report& report) {
     const Fabric& fabric = cloth.fabrics[cloth.panels[cloth.triangle_panel[t]].fabric];
     const double area = flat_area(cloth.flat[t]), edge = mean_edge(cloth.flat[t]), length = bending_length(fabric);
     total += area;
-    if (edge <= kLongEdge * length) continue;
+    if (length <= 0 || edge <= kLongEdge * length) continue;
     long_area += area;
     edges += area * edge;
     lengths += area * length;
   }
   if (long_area > kLongShare * total)
     report.warnings.push_back(
-        sentence("coarse mesh: edges of %.1f mm on a fabric of %.1f mm bending length can't fold as it would: choose a "
-                 "smaller edge_length_mm",
+        sentence("coarse mesh: edges of %.1f mm on a fabric of %.1f mm bending length can't fold as it would: shorter "
+                 "ones would",
                  1e3 * edges / long_area, 1e3 * lengths / long_area));
 }
 
@@ -124,36 +128,39 @@ void warn_of_unrest(Report& report) {
 
 }  // namespace
 
-void add_warnings(const Cloth& cloth, const std::vector<double>& contact_distance, double asked_distance,
+void add_warnings(const Cloth& cloth, const std::vector<double>& contact_distance, const SolverOptions& options,
                   Report& report) {
   warn_of_stretch(cloth, report);
   warn_of_contact(report);
   warn_of_thin_layers(cloth, contact_distance, report);
-  warn_of_capped_layers(cloth, contact_distance, asked_distance, report);
-  warn_of_long_edges(cloth, report);
+  warn_of_capped_layers(cloth, contact_distance, options.contact_distance, report);
+  if (options.gravity) warn_of_long_edges(cloth, report);
   warn_of_unrest(report);
 }
 
-void warn_of_far_garments(const Cloth& cloth, const BodyField& body, const std::vector<int>& attached, Report& report) {
-  const int garments = cloth.vertex_garment.empty() ? 0 : 1 + cloth.vertex_garment.back();
+void warn_of_far_garments(const Cloth& cloth, const BodyField& body, const std::vector<int>& attached,
+                          const NearBody& near, Report& report) {
+  const std::size_t garments = near.garments.size();
   std::vector<double> nearest(garments, std::numeric_limits<double>::infinity()), held(garments, 0.0);
   std::vector<int> count(garments, 0);
-  for (std::size_t v = 0; v < cloth.x.size(); ++v) {
-    double& least = nearest[cloth.vertex_garment[v]];
-    least = std::min(least, body.distance(cloth.x[v]));
+  for (std::size_t t = 0; t < cloth.triangles.size(); ++t) {
+    const auto& [a, b, c] = cloth.triangles[t];
+    double& least = nearest[cloth.vertex_garment[a]];
+    for (const Vec3& p : {cloth.x[a], cloth.x[b], cloth.x[c], Vec3((cloth.x[a] + cloth.x[b] + cloth.x[c]) / 3)})
+      least = std::min(least, body.distance(p) - near.offset);
   }
   for (const int v : attached) {
-    held[cloth.vertex_garment[v]] += body.distance(cloth.x[v]);
+    held[cloth.vertex_garment[v]] += body.distance(cloth.x[v]) - near.offset;
     ++count[cloth.vertex_garment[v]];
   }
-  for (int g = 0; g < garments; ++g) {
+  for (std::size_t g = 0; g < garments; ++g) {
     if (count[g] > 0 && held[g] > kFarHeld * count[g])
       report.warnings.push_back(sentence(
-          "far from the body: what is attached of garment %d is held over %.0f mm away from it on the average: "
+          "far from the body: what is attached of garment %zu is held over %.0f mm away from it on the average: "
           "does the garment's place fit the body's, with y up and the feet at y = 0?",
           g, std::floor(1e3 * held[g] / count[g])));
-    else if (nearest[g] > kFarOff)
-      report.warnings.push_back(sentence("far from the body: garment %d comes nowhere nearer to it than %.0f mm", g,
+    else if (near.garments[g] && std::isfinite(nearest[g]) && nearest[g] > kFarOff)
+      report.warnings.push_back(sentence("far from the body: garment %zu comes nowhere nearer to it than %.0f mm", g,
                                          std::floor(1e3 * nearest[g])));
   }
 }

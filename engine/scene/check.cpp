@@ -104,12 +104,12 @@ std::vector<Problem> scene_problems(const Scene& scene) {
   for (std::size_t g = 0; g < scene.garments.size(); ++g) {
     const double its = check_garment(scene.garments[g], g, scene.body.has_value(), problems);
     vertices += its;
-    if (!(its <= most)) most = its, largest = g;
+    if (its > most) most = its, largest = g;
   }
   if (!(vertices <= kMaxVertices)) {
     problems.push_back({"/garments/" + std::to_string(largest), "too_many_vertices",
-                        "The garments need more than two million vertices at these edge lengths, most of them this "
-                        "one: are its edge length and its pattern's units right?"});
+                        "The garments need more than two million vertices at these edge lengths, and none more than "
+                        "this one: are its edge length and its pattern's units right?"});
   }
   check_friction_pairs(scene, problems);
   if (scene.body) check_body(*scene.body, problems);

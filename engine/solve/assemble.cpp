@@ -137,6 +137,7 @@ Assembly assemble(const Scene& scene, Cloth apart, const BodyFields& fields, con
   if (sewn_from_panels) {
     clear_panels(apart, field, offset, 0.4);
     open_slits(apart, kSlitGap);
+    refuse_coincident(apart);
     const Sewing sewing{scene, fields, field, keep, held, part, offset};
     Sewn sewn = sew(stage, sewing, apart);
     apart.x = std::move(sewn.x);

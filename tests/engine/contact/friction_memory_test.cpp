@@ -106,6 +106,19 @@ TEST(FrictionMemory, InAFoldEachSurfaceKeepsItsOwnInWhateverOrder) {
   EXPECT_EQ(next[2].anchor, x[0]);
 }
 
+TEST(FrictionMemory, ASurfaceThatIsNewInAFoldHasNothingOfTheOldOnes) {
+  FrictionMemory memory;
+  const Positions x{Vec3(0, 1e-3, 0)};
+  std::vector<Contact> contacts{fresh_contact(x[0])};
+  contacts[0].anchor = x[0] - Vec3(0, 0, 1e-5);
+  memory.store(contacts, x);
+  std::vector<Contact> next{fresh_contact(x[0]), fresh_contact(x[0], 7 + Contact::side_key)};
+  next[0].normal = Vec3(0.7, 0.75, 0).normalized();  // the nearest now, and not quite another direction
+  memory.recall(next, x);
+  EXPECT_EQ(next[0].anchor, x[0]);
+  EXPECT_LT((next[1].anchor - contacts[0].anchor).norm(), 1e-16);
+}
+
 TEST(FrictionMemory, KeysTellContactsApart) {
   FrictionMemory memory;
   const Positions x{Vec3(0, 1e-3, 0)};

@@ -145,6 +145,28 @@ TEST(MeshField, TrianglesGivenTwiceOrOnBothSidesCountOnce) {
   }
 }
 
+TEST(MeshField, ClosedPartsThatShareAWallAreOne) {
+  const auto box = [](double from, double to) {
+    TriangleMesh mesh;
+    for (const double x : {from, to})
+      for (const double y : {-0.05, 0.05})
+        for (const double z : {-0.05, 0.05}) mesh.vertices.push_back({x, y, z});
+    mesh.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 7, 5}, {4, 6, 7}, {0, 5, 1}, {0, 4, 5},
+                      {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 7, 3}, {1, 5, 7}};
+    return mesh;
+  };
+  TriangleMesh first = box(-0.1, 0), second = box(0, 0.1);
+  // The same diagonal on both sides of the wall.
+  second.triangles[0] = {0, 1, 2};
+  second.triangles[1] = {1, 3, 2};
+  first.triangles[2] = {4, 6, 5};
+  first.triangles[3] = {5, 6, 7};
+  const BodyField joined = field_of(samples::joined(first, second)), whole = field_of(box(-0.1, 0.1));
+  EXPECT_TRUE(joined.warnings().empty());
+  for (const Vec3& p : {Vec3(0, 0, 0), Vec3(0.001, 0.03, 0), Vec3(0, 0.06, 0), Vec3(0.11, 0, 0.01)})
+    EXPECT_NEAR(joined.distance(p), whole.distance(p), 1e-6) << p.transpose();
+}
+
 TEST(MeshField, CrossingPartsHaveNoSurfaceInside) {
   const double r = 0.1;
   const Vec3 other(0.11, 0, 0);
