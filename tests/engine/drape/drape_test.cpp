@@ -290,6 +290,13 @@ TEST(Drape, LayersInTheSamePlaceAreRefused) {
   const std::vector<Problem> problems = problems_of(scene);
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].code, "coincident_layers");
+  Scene sewn = skirt_scene();
+  sewn.garments.push_back(scene.garments[0]);
+  sewn.garments.push_back(scene.garments[0]);
+  const std::vector<Problem> beside_sewn = problems_of(sewn);
+  ASSERT_EQ(beside_sewn.size(), 1U);
+  EXPECT_EQ(beside_sewn[0].code, "panel_inside_body");  // where panels are moved clear of one another, by that
+  EXPECT_EQ(beside_sewn[0].pointer, "/garments/2");
 }
 
 TEST(Drape, OfATinyPatternItsSizeIsSaid) {
