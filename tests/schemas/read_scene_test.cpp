@@ -7,6 +7,7 @@
 #include "tests/schemas/pattern_geometry.h"
 
 #include <gmock/gmock.h>
+#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -127,7 +128,9 @@ TEST(ReadScene, TheSameGarmentInOtherUnitsIsTheSameScene) {
                 1e-15);
 
   const auto panel = [](double size, const std::string& units) {
-    const std::string s = std::to_string(size);
+    char s_text[32];
+    std::snprintf(s_text, sizeof s_text, "%.17g", size);
+    const std::string s = s_text;
     return std::get<Pattern>(
                garment_from(R"({"pattern": {"inline": {"pattern": {"panels": {"p": {"vertices": [[0, 0], [)" + s +
                             ", 0], [" + s + ", " + s + "], [0, " + s + R"(]], "edges": [{"endpoints": [0, 1]},
@@ -139,8 +142,8 @@ TEST(ReadScene, TheSameGarmentInOtherUnitsIsTheSameScene) {
         .panels.at(0);
   };
   const Panel centimetres = panel(50, "100"), inches = panel(50 / 2.54, "39.37007874015748");
-  for (std::size_t v = 0; v < 4; ++v) EXPECT_LT((centimetres.vertices[v] - inches.vertices[v]).norm(), 1e-6);
-  EXPECT_LT((centimetres.translation - inches.translation).norm(), 1e-6);
+  for (std::size_t v = 0; v < 4; ++v) EXPECT_LT((centimetres.vertices[v] - inches.vertices[v]).norm(), 1e-15);
+  EXPECT_LT((centimetres.translation - inches.translation).norm(), 1e-15);
 }
 
 TEST(ReadScene, GrainInDegreesForGarmentAndPanels) {

@@ -111,13 +111,13 @@ inline Rest settle(BackwardEuler& solver, HeldCloth& cloth, double step = 0.01, 
   return rest;
 }
 
-inline Rest settle(HeldCloth& cloth) {
+inline Rest settle(HeldCloth& cloth, double tolerance = 1e-3) {
   SolverOptions options;
   options.air_drag = 0;
-  options.newton_momentum_fraction = 1e-3;
+  options.newton_momentum_fraction = tolerance;
   options.newton_iterations = 10;
   BackwardEuler solver(cloth.cloth, options);
-  return settle(solver, cloth);
+  return settle(solver, cloth, 0.01, 1500, tolerance);
 }
 
 /// Mean position of the strip's free end.

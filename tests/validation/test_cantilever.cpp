@@ -12,13 +12,13 @@ namespace {
 constexpr double kDensity = 0.2;  ///< [kg/m²]
 
 /// The strip's tip over its length at Γ = ρ g L³/D, meshed with edges of L/cells.
-Vec3 tip_at(double gamma, int cells, double degrees = 0) {
+Vec3 tip_at(double gamma, int cells, double degrees = 0, double aim = 1e-3) {
   StripScene scene;
   scene.edge = scene.length / cells;
   scene.degrees = degrees;
   const double d = bending_at(gamma, kDensity, scene.length);
   HeldCloth strip = make_strip(scene, strip_fabric(kDensity, {d, d, d}));
-  EXPECT_LT(settle(strip).residual, 1e-3) << gamma;
+  EXPECT_LT(settle(strip, aim).residual, 1e-3) << gamma;
   return tip_of(strip) / scene.length;
 }
 
@@ -50,17 +50,17 @@ TEST(CantileverReference, TipIsWithinOnePerCentOfTheLength) {
 
 TEST(CantileverReference, ErrorFallsWithTheEdgeLength) {
   SKIP_WITHOUT_REFERENCES();
-  for (double gamma : {1.0, 10.0, 100.0}) {
+  for (double gamma : {0.1, 1.0, 10.0, 100.0, 1000.0}) {
     const ElasticaTip exact = elastica(gamma);
     double error[3];
-    for (int k = 0; k < 3; ++k) error[k] = error_of(tip_at(gamma, 10 << k), exact);
+    for (int k = 0; k < 3; ++k) error[k] = error_of(tip_at(gamma, 10 << k, 0, gamma > 100 ? 1e-3 : 1e-4), exact);
     const double order = 0.5 * std::log2(error[0] / error[2]);
     std::printf("Gamma %6g  error %.3f %.3f %.3f %% of L at L/10, L/20, L/40  order %.2f\n", gamma, 100 * error[0],
                 100 * error[1], 100 * error[2], order);
     EXPECT_GT(error[0], error[1]);
     EXPECT_GT(error[1], error[2]);
     EXPECT_GT(order, 1.5) << gamma;
-    EXPECT_LT(error[2], 0.0015) << gamma;
+    EXPECT_LT(error[2], 0.0025) << gamma;
   }
 }
 
