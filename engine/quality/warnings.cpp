@@ -4,6 +4,7 @@
 #include "engine/quality/stretch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 

@@ -39,11 +39,13 @@ TEST(AdmissibleContact, OnASteepSlopeTheDistanceToTheConeIsLeft) {
 }
 
 TEST(AdmissibleContact, ContactsDoNotPull) {
-  const std::vector<Contact> contacts{slope_contact(0, 0, 0.3)};
-  const AdmissibleContact found = admissible_contact(contacts, {Vec3(0, kNodeWeight, 0)}, {kNodeMass}, {0});
-  EXPECT_EQ(found.contact_force[0], Vec3(Vec3::Zero()));
-  EXPECT_NEAR(found.net_force[0].y(), kNodeWeight, 1e-15);
-  EXPECT_EQ(count_contacts(contacts, found.contact_force).pressing, 0);
+  for (const double friction : {0.3, 0.0}) {
+    const std::vector<Contact> contacts{slope_contact(0, 0, friction)};
+    const AdmissibleContact found = admissible_contact(contacts, {Vec3(0, kNodeWeight, 0)}, {kNodeMass}, {0});
+    EXPECT_EQ(found.contact_force[0], Vec3(Vec3::Zero()));
+    EXPECT_NEAR(found.net_force[0].y(), kNodeWeight, 1e-15);
+    EXPECT_EQ(count_contacts(contacts, found.contact_force).pressing, 0);
+  }
 }
 
 TEST(AdmissibleContact, BilateralContactsPullAndRubUnderPull) {
